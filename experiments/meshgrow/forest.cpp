@@ -12,7 +12,6 @@
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <map>
 #include <optional>
 #include <tuple>
 
@@ -113,15 +112,15 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases;
 }
 
-// Cases on the same forest share it: planting foresees every instance.
-std::shared_ptr<const Forest> forest_of(const ForestSettings& settings, Progress& progress) {
-  static std::pair<std::tuple<std::uint64_t, double, std::uint64_t>, std::shared_ptr<const Forest>> last;
-  const std::tuple key{settings.instances, settings.area, settings.seed};
-  if (last.second == nullptr || last.first != key) {
-    last.second.reset();
-    last = {key, std::make_shared<const Forest>(settings, &progress)};
+// What was made last for a key: cases that follow one another share it.
+template <class Key, class Make>
+const auto& made_last(const Key& key, const Make& make) {
+  static std::optional<std::pair<Key, decltype(make())>> last;
+  if (!last || last->first != key) {
+    last.reset();
+    last.emplace(key, make());
   }
-  return last.second;
+  return last->second;
 }
 
 View view_of(const glm::vec3& eye, const glm::vec3& target, float vertical_fov, int width) {
@@ -175,13 +174,13 @@ double peak_resident() {
                           "measure on Linux");
 }
 
-CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& at, const RunOptions& options,
-                       Progress& progress) {
-  const CoherentSettings settings{.samples = at.integer("samples"),
-                                  .bounces = at.integer("bounces"),
+CoherentPicture traced(const LazyForest& lazy, const View& view, const Case& test_case,
+                       const RunOptions& options, Progress& progress) {
+  const CoherentSettings settings{.samples = test_case.integer("samples"),
+                                  .bounces = test_case.integer("bounces"),
                                   .seed = static_cast<std::uint32_t>(options.seed),
-                                  .tile = at.integer("tile")};
-  const int threads = at.integer("threads");
+                                  .tile = test_case.integer("tile")};
+  const int threads = test_case.integer("threads");
   std::optional<tbb::global_control> more;
   if (threads > 0) {
     more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -207,20 +206,25 @@ void record(const growing::Expanded& expanded, const Forest& forest, Recorder& r
   recorder.add_varying("cache_peak", "B", static_cast<double>(expanded.cache.peak_bytes));
 }
 
-void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
-  const auto forest = forest_of(
-      {.instances = instances, .area = at.parameters.number("area"), .seed = options.seed}, progress);
-  const View view =
-      view_from_the_air(*forest, at.integer("width"), static_cast<float>(at.parameters.number("shown")));
-  const auto bound = static_cast<std::size_t>(at.parameters.integer("cache")) << 20U;
+void measure_lazy(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto instances = static_cast<std::uint64_t>(test_case.parameters.integer("instances"));
+  const double area = test_case.parameters.number("area");
+  // Planting estimates every instance, which takes long.
+  const std::unique_ptr<const Forest>& forest = made_last(std::tuple(instances, area, options.seed), [&] {
+    const ForestSettings settings{.instances = instances, .area = area, .seed = options.seed};
+    return std::make_unique<const Forest>(settings, &progress);
+  });
+  const View view = view_from_the_air(*forest, test_case.integer("width"),
+                                      static_cast<float>(test_case.parameters.number("shown")));
+  const auto bound = static_cast<std::size_t>(test_case.parameters.integer("cache")) << 20U;
 
   reset_peak_resident();
   HeapCounter::reset_peak();
   const HeapScope heap;
-  LazyForest lazy(*forest, forest->plants().choose_levels(view, {at.parameters.number("spacing")}), bound);
+  LazyForest lazy(*forest, forest->plants().choose_levels(view, {test_case.parameters.number("spacing")}),
+                  bound);
   Stopwatch tracing;
-  const CoherentPicture picture = traced(lazy, view, at, options, progress);
+  const CoherentPicture picture = traced(lazy, view, test_case, options, progress);
   recorder.add("seconds", "s", tracing.seconds());
   recorder.add_varying("heap_peak", "B", static_cast<double>(HeapCounter::peak()));
   recorder.add_varying("resident_peak", "B", peak_resident());
@@ -232,7 +236,7 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
   recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
   record(lazy.expanded(), *forest, recorder);
   recorder.add("checksum", "", checksum(picture));
-  if (!at.parameters.flag("figure")) return;
+  if (!test_case.parameters.flag("figure")) return;
   const auto ground = static_cast<std::uint32_t>(forest->plants().instances().size()) + 1;
   const auto share = [&](std::uint32_t object) {
     return static_cast<double>(std::ranges::count(picture.objects, object)) /
@@ -253,7 +257,7 @@ void measure_lazy(const Case& at, const RunOptions& options, Recorder& recorder,
 }
 
 // All instances at their finest level in one scene of the eager path tracer.
-Image eager(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
+Image eager(const Forest& forest, const View& view, const Case& test_case, std::uint64_t seed) {
   const growing::PlantedScene& plants = forest.plants();
   std::vector<ModelMesh> meshes(plants.instances().size());
   RayScene scene;
@@ -276,7 +280,7 @@ Image eager(const Forest& forest, const View& view, const Case& at, std::uint64_
   scene.add_placed({.mesh = &forest.ground().mesh, .material_at = soil});
   RaytracedPicture picture(
       scene, view,
-      {.samples = at.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(seed)});
+      {.samples = test_case.integer("samples"), .bounces = 1, .seed = static_cast<std::uint32_t>(seed)});
   picture.accumulate();
   return picture.image();
 }
@@ -320,40 +324,32 @@ std::vector<std::uint8_t> uniform_levels(const growing::PlantedScene& plants,
   return levels;
 }
 
-// Two pictures of the full expansion, by different paths. Cases on the same forest share them.
-struct Truth {
-  Image image, other;
-};
-const Truth& truth_of(const Forest& forest, const View& view, const Case& at, std::uint64_t seed) {
-  static std::map<std::array<std::uint64_t, 4>, Truth> known;
-  const std::array key{seed, static_cast<std::uint64_t>(forest.plants().instances().size()),
-                       static_cast<std::uint64_t>(view.width),
-                       static_cast<std::uint64_t>(at.integer("samples"))};
-  const auto found = known.find(key);
-  if (found != known.end()) return found->second;
-  return known.emplace(key, Truth{eager(forest, view, at, seed), eager(forest, view, at, seed + 1)})
-      .first->second;
-}
-
-void measure_error(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const auto instances = static_cast<std::uint64_t>(at.parameters.integer("instances"));
+void measure_error(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const auto instances = static_cast<std::uint64_t>(test_case.parameters.integer("instances"));
   const Forest forest({.instances = instances, .area = 150, .all_leaves = false, .seed = options.seed});
-  const View view = view_from_beside(forest, at.integer("width"));
-  std::vector<std::uint8_t> levels = forest.plants().choose_levels(view, {at.parameters.number("spacing")});
-  if (at.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);
-  LazyForest lazy(forest, levels, static_cast<std::size_t>(at.parameters.integer("cache")) << 20U);
-  const Image image = traced(lazy, view, at, options, progress).image();
-  const Truth& truth = truth_of(forest, view, at, options.seed);
-  recorder.add("error", "", difference(image, truth.image, 1));
-  recorder.add("block_error", "", difference(image, truth.image, 8));
-  recorder.add("noise", "", difference(truth.image, truth.other, 1));
-  recorder.add("block_noise", "", difference(truth.image, truth.other, 8));
+  const View view = view_from_beside(forest, test_case.integer("width"));
+  std::vector<std::uint8_t> levels =
+      forest.plants().choose_levels(view, {test_case.parameters.number("spacing")});
+  if (test_case.parameters.flag("uniform")) levels = uniform_levels(forest.plants(), levels);
+  LazyForest lazy(forest, levels, static_cast<std::size_t>(test_case.parameters.integer("cache")) << 20U);
+  const Image image = traced(lazy, view, test_case, options, progress).image();
+  // Two pictures of the full expansion, by different paths.
+  const std::tuple key(options.seed, instances, view.width, test_case.integer("samples"));
+  const auto& [truth, other] = made_last(key, [&] {
+    return std::pair(eager(forest, view, test_case, options.seed),
+                     eager(forest, view, test_case, options.seed + 1));
+  });
+  recorder.add("error", "", difference(image, truth, 1));
+  recorder.add("block_error", "", difference(image, truth, 8));
+  recorder.add("noise", "", difference(truth, other, 1));
+  recorder.add("block_noise", "", difference(truth, other, 8));
   recorder.add("faces_chosen", "", static_cast<double>(lazy.faces_chosen()));
   record(lazy.expanded(), forest, recorder);
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  (at.parameters.choice("kind") == 0 ? measure_lazy : measure_error)(at, options, recorder, progress);
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  (test_case.parameters.choice("kind") == 0 ? measure_lazy : measure_error)(test_case, options, recorder,
+                                                                            progress);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ std::vector<Case> cases(const RunOptions& options) {
   return cases_by("model", kSpecs, {{"runs", std::int64_t{options.profile == Profile::kPaper ? 15 : 5}}});
 }
 
-Model read_model(const Case& at) {
-  const std::string& name = at.parameters.text("model");
+Model read_model(const Case& test_case) {
+  const std::string& name = test_case.parameters.text("model");
   return parse_model(model_text(name), name);
 }
 
@@ -135,13 +135,13 @@ void measure_faults(const Model& model, bool open, const GrownMesh& whole, Recor
   measure_planted(last.mesh, open, recorder);
 }
 
-void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+void measure(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
   GrownMesh whole;
   double best = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < at.integer("runs"); ++run) {
-    best = std::min(best, seconds([&] { whole = expand(read_model(at)); }));  // with reading its text
+  for (int run = 0; run < test_case.integer("runs"); ++run) {
+    best = std::min(best, seconds([&] { whole = expand(read_model(test_case)); }));  // with reading its text
   }
-  const Model model = read_model(at);
+  const Model model = read_model(test_case);
   recorder.add("best_time", "s", best);
   recorder.add("faces", "", static_cast<double>(whole.mesh.faces()));
   recorder.add("faces_per_second", "1/s", static_cast<double>(whole.mesh.faces()) / best);
@@ -151,7 +151,7 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
   recorder.add("model_bytes", "B", static_cast<double>(model.bytes));
   recorder.add("mesh_bytes", "B", bytes_of(whole.mesh));
   recorder.add("bytes_ratio", "", bytes_of(whole.mesh) / static_cast<double>(model.bytes));
-  measure_faults(model, kDrawn[at.parameters.choice("model")].open, whole, recorder);
+  measure_faults(model, kDrawn[test_case.parameters.choice("model")].open, whole, recorder);
 }
 
 constexpr std::array<std::string_view, 3> kForks{"fork_ridges", "fork_ridges_random", "forking_trunk"};
@@ -185,9 +185,9 @@ void measure_v(const Model& model, Recorder& recorder) {
   recorder.add("v_branches_start_there", "", static_cast<double>(starts));
 }
 
-void measure_fork(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
-  measure_v(read_model(at), recorder);
-  const Fork fork = find_fork(read_model(at), "branch");
+void measure_fork(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
+  measure_v(read_model(test_case), recorder);
+  const Fork fork = find_fork(read_model(test_case), "branch");
   recorder.add("shared_vertices", "", static_cast<double>(fork.shared.size()));
   recorder.add("others_changed", "", fork.others_changed);
   for (std::size_t k = 0; k < fork.shared.size(); ++k) {

@@ -69,9 +69,7 @@ std::vector<GrownMesh> stages_of(const Model& model) {
 }
 
 View view_of(const FaceMesh& mesh, int width, int height, const glm::vec3& from, float margin = 1.06F) {
-  TriangleMesh points;
-  points.positions = mesh.positions;
-  return close_view(mesh.positions, overview(bounds_of(points), width, height, from), margin);
+  return close_view(mesh.positions, overview(box_of(mesh.positions), width, height, from), margin);
 }
 
 bool grows(const Model& model, const GrownMesh& mesh, std::uint32_t face) {
@@ -347,8 +345,8 @@ const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
 
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "meshgrow", at, options, recorder);
+void draw(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  draw_figure(kFigures, "meshgrow", test_case, options, recorder);
 }
 
 }  // namespace

@@ -179,10 +179,10 @@ void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& record
   recorder.add("opensubdiv_difference", "m", difference(points.back(), theirs));
 }
 
-void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+void measure(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
   const growing::Model model = growing::parse_model(growing::model_text("forking_trunk"), "forking_trunk");
   const FaceMesh base = growing::expand(model, {.leave_out = {"smooth"}}).mesh;
-  const int levels = at.integer("levels"), runs = at.integer("runs");
+  const int levels = test_case.integer("levels"), runs = test_case.integer("runs");
   measure_whole(base, levels, runs, recorder);
   measure_tables(base, levels, runs, recorder);
 }

@@ -223,20 +223,20 @@ void record_leaves(const growing::Model& model, const ModelMesh& mesh, const Mod
   }
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const ModelFigure& figure = kFigures[at.parameters.choice("figure")];
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress& progress) {
+  const ModelFigure& figure = kFigures[test_case.parameters.choice("figure")];
   const growing::Model model =
       growing::parse_model(growing::model_text(figure.model), std::string(figure.model));
   const FaceMesh faces = growing::expand(model).mesh;
   const ModelMesh mesh = triangles_of(faces);
   const Bounds box = bounds_of(mesh.mesh);
-  const int height = at.integer("height");
+  const int height = test_case.integer("height");
   const View view = close_view(
       in_picture(mesh.mesh, figure.ground.has_value()),
       overview(box, static_cast<int>(figure.aspect * static_cast<float>(height)), height, figure.from));
   const Picture picture(figure, view, box,
-                        {.samples = at.integer("samples"),
-                         .bounces = at.integer("bounces"),
+                        {.samples = test_case.integer("samples"),
+                         .bounces = test_case.integer("bounces"),
                          .seed = static_cast<std::uint32_t>(options.seed)},
                         progress);
 

@@ -147,42 +147,43 @@ void move_away(int times, View& view, RaytraceSettings& settings) {
 // Of one mesh, from near and from far, each view with the random paths of every pair.
 using Pictures = std::array<std::array<Shown, kPairs>, 2>;
 
-Pictures pictures_of(const ModelMesh& mesh, const Bounds& whole, const growing::Model& model, const Case& at,
-                     const RunOptions& options) {
-  const int height = at.integer("height");
+Pictures pictures_of(const ModelMesh& mesh, const Bounds& whole, const growing::Model& model,
+                     const Case& test_case, const RunOptions& options) {
+  const int height = test_case.integer("height");
   View view = overview(whole, height, height, {0.45F, 0.3F, 1.0F});
-  RaytraceSettings settings{.samples = at.integer("samples"), .bounces = 1};
+  RaytraceSettings settings{.samples = test_case.integer("samples"), .bounces = 1};
   Pictures pictures;
   for (std::array<Shown, kPairs>& of_view : pictures) {
     for (std::uint32_t k = 0; k < kPairs; ++k) {
       settings.seed = static_cast<std::uint32_t>(options.seed) + 0x9E37 * k;
-      of_view[k] = show(mesh, painted(at.parameters.text("model")), model, view, settings);
+      of_view[k] = show(mesh, painted(test_case.parameters.text("model")), model, view, settings);
     }
-    move_away(at.integer("far"), view, settings);
+    move_away(test_case.integer("far"), view, settings);
   }
   return pictures;
 }
 
 // All levels of a model are compared with the same pictures of the whole, which are kept for the next level.
-const Pictures& pictures_of_whole(const ModelMesh& mesh, const growing::Model& model, const Case& at,
+const Pictures& pictures_of_whole(const ModelMesh& mesh, const growing::Model& model, const Case& test_case,
                                   const RunOptions& options) {
   static std::pair<std::string, Pictures> kept;
-  const std::string key = fmt::format("{} {} {} {} {}", at.parameters.text("model"), at.integer("height"),
-                                      at.integer("samples"), at.integer("far"), options.seed);
-  if (kept.first != key) kept = {key, pictures_of(mesh, bounds_of(mesh.mesh), model, at, options)};
+  const std::string key =
+      fmt::format("{} {} {} {} {}", test_case.parameters.text("model"), test_case.integer("height"),
+                  test_case.integer("samples"), test_case.integer("far"), options.seed);
+  if (kept.first != key) kept = {key, pictures_of(mesh, bounds_of(mesh.mesh), model, test_case, options)};
   return kept.second;
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::string name = at.parameters.text("model");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const std::string name = test_case.parameters.text("model");
   const growing::Model model = growing::parse_model(growing::model_text(name), name);
-  const growing::ExpandOptions without{.leave_out = names_in(at.parameters.text("left_out"))};
+  const growing::ExpandOptions without{.leave_out = names_in(test_case.parameters.text("left_out"))};
   const ModelMesh full = triangles_of(growing::expand(model).mesh);
   const ModelMesh level = triangles_of(growing::expand(model, without).mesh);
   recorder.add("triangles", "", static_cast<double>(level.mesh.triangles()));
-  const Pictures& whole = pictures_of_whole(full, model, at, options);
+  const Pictures& whole = pictures_of_whole(full, model, test_case, options);
   const Pictures reduced =
-      without.leave_out.empty() ? whole : pictures_of(level, bounds_of(full.mesh), model, at, options);
+      without.leave_out.empty() ? whole : pictures_of(level, bounds_of(full.mesh), model, test_case, options);
   for (std::size_t v = 0; v < whole.size(); ++v) {
     std::array<Pair, kPairs> pairs;
     for (std::size_t k = 0; k < kPairs; ++k) pairs[k] = {&whole[v][k], &reduced[v][k]};

@@ -337,8 +337,8 @@ const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
 
-void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "meshgrow", at, options, recorder);
+void draw(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  draw_figure(kFigures, "meshgrow", test_case, options, recorder);
 }
 
 }  // namespace

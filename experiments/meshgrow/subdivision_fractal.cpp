@@ -139,28 +139,28 @@ double slope_of(const std::vector<double>& densities) {
 }
 
 // The displacement is amplitude · s^power, of which by_scale gives one factor s = s(1) · 2^(1 - level).
-PlacementRule rule_of(const Case& at, int level, std::uint64_t seed) {
+PlacementRule rule_of(const Case& test_case, int level, std::uint64_t seed) {
   PlacementRule rule =
-      fractal_rule(static_cast<float>(at.parameters.number("amplitude") *
-                                      std::exp2((1 - level) * (at.parameters.number("power") - 1))),
+      fractal_rule(static_cast<float>(test_case.parameters.number("amplitude") *
+                                      std::exp2((1 - level) * (test_case.parameters.number("power") - 1))),
                    seed);
-  if (at.parameters.text("placement") == "linear") rule.base = Base::kLinear;
-  if (at.parameters.text("along") == "up") rule.displacements[0].axis = Axis::kFixed;
+  if (test_case.parameters.text("placement") == "linear") rule.base = Base::kLinear;
+  if (test_case.parameters.text("along") == "up") rule.displacements[0].axis = Axis::kFixed;
   rule.texture = Base::kLinear;
   return rule;
 }
 
-void measure_spectrum(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
+void measure_spectrum(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
   const FaceMesh base = growing::plane({10, 10}, kBaseCells, kBaseCells).mesh;
-  const int levels = at.integer("levels");
+  const int levels = test_case.integer("levels");
   const Refinement refinement(base, levels, kCornersStay);
   const std::size_t n = std::size_t{kBaseCells} << static_cast<unsigned>(levels);
   std::vector<double> slopes;
-  for (int k = 0; k < at.integer("seeds"); ++k) {
+  for (int k = 0; k < test_case.integer("seeds"); ++k) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(k);
     LevelPoints points{base.positions, base.texture};
     for (int level = 0; level < levels; ++level) {
-      points = next_points(refinement, level, points, rule_of(at, level + 1, seed),
+      points = next_points(refinement, level, points, rule_of(test_case, level + 1, seed),
                            static_cast<std::uint32_t>(level + 1));
     }
     std::vector<double> heights(n * n);  // the last row and column would repeat the window's zero
@@ -173,7 +173,7 @@ void measure_spectrum(const Case& at, const RunOptions& options, Recorder& recor
     slopes.push_back(slope_of(densities));
     recorder.add(fmt::format("slope_seed_{}", k + 1), "", slopes.back());
   }
-  recorder.add("theory", "", -(2 + 2 * at.parameters.number("power")));
+  recorder.add("theory", "", -(2 + 2 * test_case.parameters.number("power")));
   recorder.add("slope", "",
                std::accumulate(slopes.begin(), slopes.end(), 0.0) / static_cast<double>(slopes.size()));
 }
@@ -189,11 +189,12 @@ const std::array kHeightFieldSpecs{
 
 std::vector<Case> height_field_cases(const RunOptions&) { return cases_by("along", kHeightFieldSpecs); }
 
-void measure_height_field(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  PlacementRule rule = fractal_rule(static_cast<float>(at.parameters.number("amplitude")), options.seed);
-  if (at.parameters.choice("along") == 0) rule.displacements[0].axis = Axis::kFixed;
+void measure_height_field(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  PlacementRule rule =
+      fractal_rule(static_cast<float>(test_case.parameters.number("amplitude")), options.seed);
+  if (test_case.parameters.choice("along") == 0) rule.displacements[0].axis = Axis::kFixed;
   const FaceMesh base = growing::plane({4, 4}, 4, 4).mesh;
-  const auto steps = static_cast<std::size_t>(at.integer("steps"));
+  const auto steps = static_cast<std::size_t>(test_case.integer("steps"));
   const FaceMesh flat = subdivide(base, std::vector(steps, PlacementRule{}), kCornersStay);
   const FaceMesh mesh = subdivide(base, std::vector(steps, rule), kCornersStay);
 
@@ -240,12 +241,13 @@ double mean_of(const Array<float>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-void measure_approximation(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const FaceMesh base =
-      at.parameters.choice("mesh") == 0 ? growing::plane({4, 4}, 4, 4).mesh : growing::sphere(1, 2).mesh;
-  const int levels = at.integer("levels");
+void measure_approximation(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const FaceMesh base = test_case.parameters.choice("mesh") == 0 ? growing::plane({4, 4}, 4, 4).mesh
+                                                                 : growing::sphere(1, 2).mesh;
+  const int levels = test_case.integer("levels");
   const Refinement refinement(base, levels, kCornersStay);
-  const PlacementRule rough = fractal_rule(static_cast<float>(at.parameters.number("bound")), options.seed);
+  const PlacementRule rough =
+      fractal_rule(static_cast<float>(test_case.parameters.number("bound")), options.seed);
   std::vector<LevelPoints> meshes{{base.positions, {}}};
   const auto next = [&](const LevelPoints& points, int level, const PlacementRule& rule) {
     return next_points(refinement, level, points, rule, static_cast<std::uint32_t>(level + 1));

@@ -93,11 +93,11 @@ void record_step(Recorder& recorder, int step, int last, const Distances& now, c
   }
 }
 
-void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::string& name = at.parameters.text("mesh");
-  const std::int64_t displaced = at.parameters.integer("displaced");
-  const FaceMesh start = rough_mesh(name, displaced, at.parameters.number("amplitude"), options.seed);
-  const int steps = at.integer("steps");
+void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const std::string& name = test_case.parameters.text("mesh");
+  const std::int64_t displaced = test_case.parameters.integer("displaced");
+  const FaceMesh start = rough_mesh(name, displaced, test_case.parameters.number("amplitude"), options.seed);
+  const int steps = test_case.integer("steps");
   const Refinement refinement(start, steps, kCornersStay);
   std::vector<std::size_t> followed;
   for (std::uint32_t v = 0; v < refinement.topology(0).vertices; ++v) {
@@ -168,14 +168,15 @@ class Levels {
   std::vector<glm::dvec3> limits_;               // of the finest
 };
 
-void measure_points(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
-  const std::string& name = at.parameters.text("mesh");
-  const Levels levels(name == "chair" ? growing::expand(growing::parse_model(growing::model_text(name), name),
-                                                        {.leave_out = {"finish"}})
-                                            .mesh
-                                      : rough_mesh(name, 2, at.parameters.number("amplitude"), options.seed));
+void measure_points(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
+  const std::string& name = test_case.parameters.text("mesh");
+  const Levels levels(
+      name == "chair"
+          ? growing::expand(growing::parse_model(growing::model_text(name), name), {.leave_out = {"finish"}})
+                .mesh
+          : rough_mesh(name, 2, test_case.parameters.number("amplitude"), options.seed));
   const Topology& mesh = levels.topology(0);
-  const auto asked = static_cast<std::uint32_t>(at.integer("faces"));
+  const auto asked = static_cast<std::uint32_t>(test_case.integer("faces"));
   const std::uint32_t stride = std::max(1U, mesh.faces() / asked);
   double points = 0, irregular = 0, later_off = 0, vertex_off = 0, face_off = 0;
   for (std::uint32_t face = 0; face < mesh.faces(); face += stride) {

@@ -25,15 +25,6 @@ std::vector<glm::dvec3> in_double(const Points& points) {
   return {points.begin(), points.end()};
 }
 
-double diagonal_of(const FaceMesh& mesh) {
-  glm::vec3 low = mesh.positions[0], high = low;
-  for (const glm::vec3& p : mesh.positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return glm::distance(low, high);
-}
-
 // Against one other construction, over all levels.
 struct Worst {
   std::size_t mismatches = 0;
@@ -55,11 +46,11 @@ double farthest(const std::vector<glm::dvec3>& points, const PeerLevel& peer) {
 
 // Vertex for vertex, at every level and for both rules for corners of a boundary; the plain reference, which
 // knows no creases, has the first.
-void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress&) {
+void measure(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
   using namespace subdivision;
-  const FaceMesh base = shape(at.parameters.text("shape"));
-  const int levels = at.integer("levels");
-  const double diagonal = diagonal_of(base);
+  const FaceMesh base = shape(test_case.parameters.text("shape"));
+  const int levels = test_case.integer("levels");
+  const double diagonal = glm::length(box_of(base.positions).size());
   Worst opensubdiv, textbook;
   for (const Boundary boundary : {Boundary::kEdge, Boundary::kEdgeAndCorner}) {
     const Refinement refinement(base, levels, {boundary});

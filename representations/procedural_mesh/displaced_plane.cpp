@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "representations/procedural_mesh/subdivision/subdivide.h"
 
 namespace terrabench {
 namespace {
-
-struct Texel {
-  std::size_t i, j;
-};
 
 class Plane {
  public:
@@ -56,17 +53,12 @@ class Plane {
   }
 
   // Beyond the border lies the border.
-  Texel texel(glm::vec2 at) const {
-    return {std::min(static_cast<std::size_t>(at.x), texture_.x.size() - 1),
-            std::min(static_cast<std::size_t>(at.y), texture_.z.size() - 1)};
+  glm::uvec2 texel(glm::vec2 at) const {
+    return glm::min(glm::uvec2(at), glm::uvec2(texture_.x.size() - 1, texture_.z.size() - 1));
   }
   glm::vec3 position(glm::vec2 at) const {
-    const Texel t = texel(at);
-    return {texture_.x[t.i], texture_.heights[t.j * texture_.x.size() + t.i], texture_.z[t.j]};
-  }
-  bool at_one_place(glm::vec2 a, glm::vec2 b) const {
-    const Texel ta = texel(a), tb = texel(b);
-    return ta.i == tb.i && ta.j == tb.j;
+    const glm::uvec2 t = texel(at);
+    return {texture_.x[t.x], texture_.heights[t.y * texture_.x.size() + t.x], texture_.z[t.y]};
   }
 
  private:
@@ -83,8 +75,8 @@ FaceMesh faces_with_heights(FaceMesh&& mesh, const Plane& plane) {
   std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
   for (std::size_t f = 0; f < mesh.faces(); ++f) {
     const auto corners = mesh.face(f);
-    const bool flat = plane.at_one_place(mesh.texture[corners[0]], mesh.texture[corners[1]]) ||
-                      plane.at_one_place(mesh.texture[corners[1]], mesh.texture[corners[2]]);
+    const auto texel = [&](std::size_t k) { return plane.texel(mesh.texture[corners[k]]); };
+    const bool flat = texel(0) == texel(1) || texel(1) == texel(2);
     const bool full =
         std::ranges::none_of(corners, [&](std::uint32_t v) { return std::isnan(mesh.positions[v].y); });
     if (flat || !full) continue;

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <span>
 #include <vector>
+
+#include "terrain/solid.h"
 
 namespace terrabench {
 
@@ -47,5 +50,16 @@ struct FaceMesh {
     add_face(std::span(vertices.begin(), vertices.size()));
   }
 };
+
+// Of any points; zero for none.
+inline Bounds box_of(std::span<const glm::vec3> positions) {
+  if (positions.empty()) return {};
+  Bounds box{positions[0], positions[0]};
+  for (const glm::vec3& p : positions) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
+  }
+  return box;
+}
 
 }  // namespace terrabench

@@ -3,10 +3,11 @@
 // grammar.
 //
 // To follow a model from its text to faces: growing/rules.h, what a rule is; parse_model() in model.cpp;
-// RuleReader in model_rules.cpp; expand() in expand.cpp; growing/grow.h, then grow() in growing/grow.cpp and
-// what it calls; apply_rule() in growing/apply_rule.cpp, the new elements of one face. What can wait:
-// expressions (growing/expression.h), checks of what is written down (growing/well_formed.h), limits,
-// textures, and subdivision (subdivision/subdivide.h).
+// RuleReader::run() in model_rules.cpp and what it calls for "sections"; expand() in expand.cpp;
+// growing/grow.h; Grower::run() and step() in growing/grow.cpp; RuleApplier::run() in growing/apply_rule.cpp
+// and extrude(), which make the new elements of one face. What can wait: expressions (growing/expression.h),
+// checks of what is written down (growing/well_formed.h), limits, dropping what was replaced, textures, and
+// subdivision (subdivision/subdivide.h).
 #pragma once
 
 #include <functional>

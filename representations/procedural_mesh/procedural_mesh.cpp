@@ -93,15 +93,6 @@ float spacing_of(const MeshDescription& description, const FaceMesh& mesh) {
   return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, mesh.corners.size())));
 }
 
-Bounds bounds_of_model(const TriangleColumns& columns) {
-  Bounds bounds{columns.positions().at(0), columns.positions().at(0)};
-  for (const glm::vec3& p : columns.positions()) {
-    bounds.low = glm::min(bounds.low, p);
-    bounds.high = glm::max(bounds.high, p);
-  }
-  return bounds;
-}
-
 void add_spans(std::span<const Crossing> crossings, float floor, SpanSink& out) {
   int depth = 0;
   for (const Crossing& c : crossings) depth -= c.weight;  // so that it is air far above
@@ -149,7 +140,7 @@ ProceduralMesh::ProceduralMesh(MeshDescription description, const std::string& o
   std::vector<Triangle> triangles = triangulate(polygons);
   columns_ = TriangleColumns(std::move(polygons.positions), std::move(triangles));
   if (description_.model.empty()) return;
-  Bounds model = bounds_of_model(columns_);
+  Bounds model = box_of(columns_.positions());
   constexpr float kFarthest = 1e9F;  // as heights of files
   const glm::vec3 reach = glm::max(glm::abs(model.low), glm::abs(model.high));
   if (const float farthest = std::max({reach.x, reach.y, reach.z}); !(farthest <= kFarthest)) {

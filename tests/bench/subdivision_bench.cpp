@@ -1,15 +1,14 @@
 // Catmull–Clark refinement of a bumpy grid: building tables, and positions from tables that exist, beside
-// OpenSubdiv's evaluators and OpenMesh's subdivider. Rates are vertices of the finest level per second.
-// Arguments: quadrilaterals along the side of the base, levels. vs_opensubdiv is the ratio of the fastest
-// wall times in the same run, for positions beside its OpenMP evaluator: above 1 we are faster.
+// OpenSubdiv's evaluators (meshgrow.refinement has OpenMesh's subdivider, too). Rates are vertices of the
+// finest level per second. Arguments: quadrilaterals along the side of the base, levels. vs_opensubdiv is the
+// ratio of the fastest wall times in the same run, for positions beside its OpenMP evaluator: above 1 we are
+// faster.
 #include <benchmark/benchmark.h>
 #include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/osd/cpuEvaluator.h>
 #include <opensubdiv/osd/ompEvaluator.h>
 
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,7 +27,6 @@ using namespace terrabench;
 using namespace terrabench::subdivision;
 namespace Far = OpenSubdiv::Far;
 namespace Osd = OpenSubdiv::Osd;
-using OpenMeshPolygons = OpenMesh::PolyMesh_ArrayKernelT<>;
 
 FaceMesh base_of(const benchmark::State& state) {
   const auto n = static_cast<std::uint32_t>(state.range(0));
@@ -164,27 +162,6 @@ void opensubdiv_positions(benchmark::State& state) {
   count(state, out.size(), quads_of(state));
 }
 
-void openmesh(benchmark::State& state) {
-  const FaceMesh base = base_of(state);
-  OpenMeshPolygons original;
-  std::vector<OpenMeshPolygons::VertexHandle> handles;
-  for (const glm::vec3& p : base.positions) handles.push_back(original.add_vertex({p.x, p.y, p.z}));
-  for (std::size_t f = 0; f < base.faces(); ++f) {
-    const std::uint32_t* c = &base.corners[f * 4];
-    original.add_face({handles[c[0]], handles[c[1]], handles[c[2]], handles[c[3]]});
-  }
-  std::size_t vertices = 0;
-  for (auto _ : state) {
-    OpenMeshPolygons mesh = original;
-    OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshPolygons> subdivider;
-    subdivider.attach(mesh);
-    subdivider(static_cast<std::size_t>(levels_of(state)));
-    subdivider.detach();
-    vertices = mesh.n_vertices();
-  }
-  count(state, vertices, quads_of(state));
-}
-
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({200, 2})->Args({100, 4})->Args({1600, 1})->Args({50, 6});
   bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
@@ -195,6 +172,5 @@ BENCHMARK(positions)->Apply(sizes);
 BENCHMARK(opensubdiv_tables)->Apply(sizes);
 BENCHMARK(tables)->Apply(sizes);
 BENCHMARK(whole)->Apply(sizes);
-BENCHMARK(openmesh)->Apply(sizes);
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
 }
 
 TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
-  for (const Case& at : experiment("meshgrow.lod").cases({})) {
+  for (const Case& test_case : experiment("meshgrow.lod").cases({})) {
     const std::string name = at.parameters.text("model");
     EXPECT_EQ(painted(name).model, name);
     const std::string left_out = at.parameters.text("left_out");

@@ -72,6 +72,9 @@ std::string base(const std::string& list) {
 }
 
 TEST(Models, BadInputIsRefusedWithLineAndColumn) {
+  const std::string a = "[symbols]\na = []\n", all = "[[step]]\ngrow = \"all\"\n";
+  std::string sum = "1";
+  for (int k = 0; k < 2000; ++k) sum += "+1";
   const std::string three = "corners = 3\nvertices = [[0, 0, 1]]\nfaces = [[0,1,3],[1,2,3],[2,0,3]]\n";
   const struct {
     std::string text, place, what;
@@ -104,6 +107,24 @@ TEST(Models, BadInputIsRefusedWithLineAndColumn) {
       {sections("move = 1, scale = 0"), "m:7:", "degenerate face"},
       {sections("move = 0"), "m:7:", "degenerate face"},
       {rule(three + kGrow), "m:7:", "another number of corners"},
+      // Names, and limits.
+      {"[symbols]\nsize = []\n[base]\nshape = \"cube\"\n", "m:2:", "already in use"},
+      {"[symbols]\na = [\"b\"]\nb = []\n[base]\nshape = \"cube\"\n", "m:1:", "has the name of a symbol"},
+      {rule(kExtrude + "cap = \"a\"\n" + all + "[limits]\nsteps = 100\n"), "m",
+       "still grows after 100 steps"},
+      {"[limits]\nfaces = 50000\n" + a + "[base]\nshape = \"cube\"\nsymbol = \"a\"\n" + kRule +
+           "sections = [{ move = 1, sides = \"a\" }]\ncap = \"a\"\n" + all,
+       "m", "beyond 50000 faces"},
+      {"[limits]\nfaces = 4096\nsteps = 1000000\n" + a +
+           "[base]\nshape = \"plane\"\ncells = 64\nsymbol = \"a\"\n" + kRule +
+           "corners = 4\nfaces = [[0,1,2,3]]\nsymbols = \"a\"\n" + all,
+       "m", "with those that it replaces"},
+      {"[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 14\n", "m:3:", "more than 10000000"},
+      {"[limits]\nfaces = 10\n[base]\nshape = \"plane\"\ncells = 9\n", "m:3:", "more than 10"},
+      {"[limits]\nfaces = 1000\n[base]\nshape = \"sphere\"\ncells = 256\n",
+       "m:3:", "393216 faces, more than 1000"},
+      {"[symbols]\na = [\"p\"]\n[base]\nshape = \"plane\"\ncells = 1024\nsymbol = \"a(" + sum + ")\"\n", "m",
+       "too long for so many faces"},
       // Templates and bases that are not well formed.
       {faces("[[0,1,4],[1,2,4],[2,3,4]]"), "m:11:9", "does not fit its face"},
       {faces("[[0,4,1],[1,2,4],[2,3,5],[3,0,5]]"), "m:11:9", "in the same direction"},
@@ -126,20 +147,6 @@ TEST(Models, BadInputIsRefusedWithLineAndColumn) {
   }
 }
 
-TEST(Models, GrowthWithoutEndStopsAtTheLimits) {
-  EXPECT_THAT(
-      error_of(kHead + kRule + kExtrude + "cap = \"a\"\n[[step]]\ngrow = \"all\"\n[limits]\nsteps = 100\n"),
-      HasSubstr("still grows after 100 steps"));
-  const std::string all = "[symbols]\na = []\n[base]\nshape = \"cube\"\nsymbol = \"a\"\n" + kRule +
-                          "sections = [{ move = 1, sides = \"a\" }]\ncap = \"a\"\n";
-  EXPECT_THAT(error_of("[limits]\nfaces = 50000\n" + all + "[[step]]\ngrow = \"all\"\n"),
-              HasSubstr("beyond 50000 faces"));
-  EXPECT_THAT(error_of("[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 14\n"),
-              HasSubstr("more than 10000000"));
-  EXPECT_THAT(error_of("[limits]\nfaces = 10\n[base]\nshape = \"plane\"\ncells = 9\n"),
-              HasSubstr("more than 10"));
-}
-
 TEST(Models, FacesThatAreReplacedDoNotPileUp) {
   const std::string swap = "corners = 4\nfaces = [[0,1,2,3]]\nsymbols = \"a\"\n";
   const std::string text = "[symbols]\na = []\n[base]\nshape = \"plane\"\ncells = 64\nsymbol = \"a\"\n" +
@@ -151,14 +158,6 @@ TEST(Models, FacesThatAreReplacedDoNotPileUp) {
   // The first and the last face keep their places.
   const FaceMesh plane = expand(parse_model("[base]\nshape = \"plane\"\ncells = 64\n", "plane")).mesh;
   EXPECT_EQ(mesh.mesh.corners, plane.corners);
-}
-
-TEST(Models, GrowthThatOnlyReplacesItsFacesEnds) {
-  const std::string swap = "corners = 4\nfaces = [[0,1,2,3]]\nsymbols = \"a\"\n";
-  EXPECT_THAT(error_of("[limits]\nfaces = 4096\nsteps = 1000000\n[symbols]\na = []\n[base]\nshape = "
-                       "\"plane\"\ncells = 64\nsymbol = \"a\"\n" +
-                       kRule + swap + "[[step]]\ngrow = \"all\"\n"),
-              HasSubstr("with those that it replaces"));
 }
 
 TEST(Models, TheLimitOfFacesIsExact) {
@@ -187,22 +186,6 @@ TEST(Models, CornersOfFacesAreLimited) {
   for (int k = 399; k >= 0; --k) text += fmt::format("{}, ", 4 + k);
   text += "]]\n[[step]]\ngrow = 1\n";
   EXPECT_THAT(error_of(text), HasSubstr("corners of faces"));
-}
-
-TEST(Models, LongExpressionsForManyFacesAreRefused) {
-  std::string sum = "1";
-  for (int k = 0; k < 2000; ++k) sum += "+1";
-  EXPECT_THAT(error_of("[symbols]\na = [\"p\"]\n[base]\nshape = \"plane\"\ncells = 1024\nsymbol = \"a(" +
-                       sum + ")\"\n"),
-              HasSubstr("too long for so many faces"));
-  EXPECT_THAT(error_of("[limits]\nfaces = 1000\n[base]\nshape = \"sphere\"\ncells = 256\n"),
-              HasSubstr("393216 faces, more than 1000"));
-}
-
-TEST(Models, NamesOfSymbolsAreNoVariables) {
-  EXPECT_THAT(error_of("[symbols]\nsize = []\n[base]\nshape = \"cube\"\n"), HasSubstr("already in use"));
-  EXPECT_THAT(error_of("[symbols]\na = [\"b\"]\nb = []\n[base]\nshape = \"cube\"\n"),
-              HasSubstr("has the name of a symbol"));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(PlantedScene, ExpandsAnInstanceAsTheEagerExpansionDoesBitForBit) {
   }
 }
 
-TEST(PlantedScene, ForeseesTheFacesAndABoxOfEveryExpansion) {
+TEST(PlantedScene, EstimatesTheFacesAndABoxOfEveryExpansion) {
   const PlantedScene scene = planted(24);
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < 24; ++i) {

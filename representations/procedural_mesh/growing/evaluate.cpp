@@ -80,9 +80,9 @@ std::span<const Function> signs() {
       {"!=", 2, [](Arguments a) { return a[0] != a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
       {"<", 2, [](Arguments a) { return a[0] < a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
       {">", 2, [](Arguments a) { return a[0] > a[1] ? 1.0 : 0.0; }, Code::kCall, 0},
-      {"+", 2, [](Arguments a) { return a[0] + a[1]; }, Code::kCall, 1},
-      {"-", 2, [](Arguments a) { return a[0] - a[1]; }, Code::kCall, 1},
-      {"*", 2, [](Arguments a) { return a[0] * a[1]; }, Code::kCall, 2},
+      {"+", 2, nullptr, Code::kAdd, 1},
+      {"-", 2, nullptr, Code::kSubtract, 1},
+      {"*", 2, nullptr, Code::kMultiply, 2},
       {"/", 2, [](Arguments a) { return a[1] == 0 ? kNaN : a[0] / a[1]; }, Code::kCall, 2},
       {"%", 2, [](Arguments a) { return a[1] == 0 ? kNaN : a[0] - a[1] * std::floor(a[0] / a[1]); },
        Code::kCall, 2}};
@@ -121,6 +121,18 @@ double evaluate(const Expression& expression, const Values& values) {
       case Code::kRandomBetween:
         --top;
         top[-1] += (*top - top[-1]) * random_share(values.random, operation.where);
+        break;
+      case Code::kAdd:
+        --top;
+        top[-1] += *top;
+        break;
+      case Code::kSubtract:
+        --top;
+        top[-1] -= *top;
+        break;
+      case Code::kMultiply:
+        --top;
+        top[-1] *= *top;
         break;
       case Code::kCall:
         top -= operation.arguments - 1;

@@ -66,6 +66,9 @@ enum class Code : std::uint16_t {
   kJumpIfNot,  // pops
   kRandom,
   kRandomBetween,
+  kAdd,  // the commonest signs need no call
+  kSubtract,
+  kMultiply,
   kCall,  // of a function of the topmost numbers, which its value replaces
 };
 struct Operation {

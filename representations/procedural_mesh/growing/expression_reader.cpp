@@ -183,7 +183,7 @@ void Reader::binary(int level) {
   };
   for (auto sign = next(); sign != signs().end(); sign = next()) {
     binary(level + 1);
-    call(sign->call, 2);
+    emit({.code = sign->code, .arguments = 2, .call = sign->call}, -1);
     if (level == 0) return;
   }
 }

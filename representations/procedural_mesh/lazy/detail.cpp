@@ -95,8 +95,8 @@ DetailModel make_detail_model(std::string_view text, const std::string& name,
 
 GrownMesh expand_seed(const Model& model, std::uint64_t seed) { return expand(with_seed(model, seed)); }
 
-std::vector<Foreseen> foresee(const DetailModel& model, std::uint64_t seed) {
-  std::vector<Foreseen> result(model.levels.size());
+std::vector<Estimate> estimate(const DetailModel& model, std::uint64_t seed) {
+  std::vector<Estimate> result(model.levels.size());
   GrownMesh grown;
   for (std::size_t l = 0; l < model.levels.size(); ++l) {
     if (model.growth[l] != l) continue;
@@ -109,16 +109,6 @@ std::vector<Foreseen> foresee(const DetailModel& model, std::uint64_t seed) {
     }
   }
   return result;
-}
-
-Bounds box_of(const std::vector<glm::vec3>& positions) {
-  if (positions.empty()) return {};
-  Bounds box{positions[0], positions[0]};
-  for (const glm::vec3& p : positions) {
-    box.low = glm::min(box.low, p);
-    box.high = glm::max(box.high, p);
-  }
-  return box;
 }
 
 float beyond(const Bounds& inner, const Bounds& box) {

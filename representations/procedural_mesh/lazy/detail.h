@@ -37,7 +37,7 @@ DetailModel make_detail_model(std::string_view text, const std::string& name, st
 GrownMesh expand_seed(const Model&, std::uint64_t seed);
 
 // What an expansion will have, from its growing steps alone.
-struct Foreseen {
+struct Estimate {
   std::uint64_t faces = 0;  // exact
   // A box around its vertices. Standard and linear placement give weighted means with weights of at least 0,
   // so subdivision does not leave the box of the mesh before it. Displacements may, by the level's margin at
@@ -45,9 +45,8 @@ struct Foreseen {
   Bounds box;
 };
 // One per level. Grows once per different growth.
-std::vector<Foreseen> foresee(const DetailModel&, std::uint64_t seed);
+std::vector<Estimate> estimate(const DetailModel&, std::uint64_t seed);
 
-Bounds box_of(const std::vector<glm::vec3>& positions);  // zero for none
 // Metres by which the inner box leaves the other; 0 if it does not.
 float beyond(const Bounds& inner, const Bounds& box);
 

@@ -18,7 +18,7 @@ namespace terrabench::growing {
 struct Expanded {
   std::uint64_t parts = 0, faces = 0;  // different instances, at their levels
   std::uint64_t again = 0;             // faces expanded again after they were dropped
-  std::uint64_t outside = 0;           // parts that left the box foreseen for them
+  std::uint64_t outside = 0;           // parts that left the box estimated for them
   CacheCounts cache;
 };
 

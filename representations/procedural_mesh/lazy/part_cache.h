@@ -41,8 +41,12 @@ class PartCache {
   // use the cache. Throws what they throw; environment_error for a part that alone exceeds the bound.
   template <class Make, class Use>
   void with(Key key, const Make& make, const Use& use) {
-    Pin pin(*this, key, make);
-    use(std::as_const(pin.value()));
+    const auto release = [this](Entry* entry) {
+      const std::lock_guard lock(mutex_);
+      if (--entry->users == 0) changed_.notify_all();
+    };
+    const std::unique_ptr<Entry, decltype(release)> pin(&acquire(key, make), release);
+    use(std::as_const(*pin->value));
   }
 
   std::size_t bytes() const {
@@ -71,20 +75,6 @@ class PartCache {
     std::size_t bytes = 0;
     unsigned users = 0;
     std::list<Key>::iterator at;  // in order_, once there is a value
-  };
-
-  class Pin {
-   public:
-    template <class Make>
-    Pin(PartCache& cache, Key key, const Make& make) : cache_(cache), entry_(cache.acquire(key, make)) {}
-    ~Pin() { cache_.release(entry_); }
-    Pin(const Pin&) = delete;
-    Pin& operator=(const Pin&) = delete;
-    Value& value() const { return *entry_.value; }
-
-   private:
-    PartCache& cache_;
-    Entry& entry_;
   };
 
   // References to entries stay valid when the map grows. One that has users, or no value yet, is not erased
@@ -130,11 +120,6 @@ class PartCache {
     counts_.peak_bytes = std::max(counts_.peak_bytes, bytes_);
     changed_.notify_all();
     return entry;
-  }
-
-  void release(Entry& entry) {
-    const std::lock_guard lock(mutex_);
-    if (--entry.users == 0) changed_.notify_all();
   }
 
   // A thread that waits here holds no other part, so those that are in use are released at last.

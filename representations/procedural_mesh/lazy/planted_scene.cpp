@@ -66,13 +66,10 @@ void check(const Instance& instance, std::size_t number, std::size_t models) {
   }
 }
 
-Bounds joined(const std::vector<Foreseen>& levels) {
-  Bounds box = levels[0].box;
-  for (const Foreseen& level : levels) {
-    box.low = glm::min(box.low, level.box.low);
-    box.high = glm::max(box.high, level.box.high);
-  }
-  return box;
+Bounds joined(const std::vector<Estimate>& levels) {
+  std::vector<glm::vec3> corners;
+  for (const Estimate& level : levels) corners.insert(corners.end(), {level.box.low, level.box.high});
+  return box_of(corners);
 }
 
 // Of the corners, widened by the rounding of their transformation.
@@ -137,10 +134,10 @@ PlantedScene::PlantedScene(std::vector<DetailModel> models, std::vector<Instance
   faces_.resize(levels);
   boxes_.resize(instances_.size());
   local_boxes_.resize(instances_.size());
-  if (progress != nullptr) progress->begin("foresee the instances", instances_.size());
+  if (progress != nullptr) progress->begin("estimate the instances", instances_.size());
   tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t i) {
     const Instance& instance = instances_[i];
-    const std::vector<Foreseen> seen = foresee(models_[instance.model], instance.seed);
+    const std::vector<Estimate> seen = estimate(models_[instance.model], instance.seed);
     for (std::size_t l = 0; l < seen.size(); ++l) {
       if (l > 0 && seen[l].faces > seen[l - 1].faces) {
         throw bad_input(fmt::format("level {} has {} faces, more than the {} of the level before", l,

@@ -1,9 +1,8 @@
-#include "representations/procedural_mesh/subdivision/local_surface.h"
-
 #include <cassert>
 #include <glm/glm.hpp>
 
 #include "representations/procedural_mesh/subdivision/corner_walk.h"
+#include "representations/procedural_mesh/subdivision/placement.h"
 
 namespace terrabench::subdivision {
 namespace {
