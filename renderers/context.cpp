@@ -4,10 +4,8 @@
 
 #include <array>
 
-#include "renderers/egl/egl_context.h"
+#include "renderers/contexts.h"
 #include "renderers/gl.h"
-#include "renderers/glfw/glfw_context.h"
-#include "renderers/osmesa/osmesa_context.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
 
@@ -73,9 +71,10 @@ void GlContext::leave_current() noexcept {
   current = nullptr;
 }
 
-void GlContext::open_target(int width, int height) {
-  make_current();
-  target_ = std::make_unique<RenderTarget>(width, height);
+std::unique_ptr<GlContext> with_target(std::unique_ptr<GlContext> context, int width, int height) {
+  context->make_current();
+  context->target_ = std::make_unique<RenderTarget>(width, height);
+  return context;
 }
 
 void GlContext::close_target() noexcept {

@@ -42,11 +42,11 @@ class GlContext {
   virtual void acquire() = 0;           // makes it current and loads its functions; throws if that fails
   virtual void release() noexcept = 0;  // leaves the thread without a current context
 
-  // To be called by the derived constructor, and by its destructor before the context is destroyed.
-  void open_target(int width, int height);
+  // To be called by the derived destructor before the context is destroyed.
   void close_target() noexcept;
 
  private:
+  friend std::unique_ptr<GlContext> with_target(std::unique_ptr<GlContext>, int width, int height);
   std::unique_ptr<RenderTarget> target_;
 };
 

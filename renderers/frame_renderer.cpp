@@ -10,6 +10,7 @@
 
 #include "renderers/frame_buffers.h"
 #include "renderers/gl.h"
+#include "renderers/ramp.h"
 #include "renderers/target.h"
 
 namespace terrabench {
@@ -21,8 +22,6 @@ struct CullUndersides {
   CullUndersides() { glEnable(GL_CULL_FACE); }
   ~CullUndersides() { glDisable(GL_CULL_FACE); }
 };
-
-glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
 
 // The programs for a frame's heights and meshes that give the same fragments. That for meshes is linked when
 // a frame first has some.
@@ -123,12 +122,7 @@ void FrameRenderer::upload(const Frame& frame) {
 
 void FrameRenderer::draw_uploaded(const View& view, const FrameStyle& style) {
   context_.make_current();
-  RenderTarget& target = context_.target();
-  target.resize(view.width, view.height);
-  target.bind();
-  const glm::vec3 background = as_shares(style.background);
-  glClearColor(background.r, background.g, background.b, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  context_.target().begin(view.width, view.height, style.background);
   const CullUndersides culling;
   glBindTextureUnit(0, gl_->ramp.id());
   gl_->ground.begin();

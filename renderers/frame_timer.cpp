@@ -35,10 +35,6 @@ std::vector<double> query_times(int first, int frames, const std::function<void(
 
 }  // namespace
 
-std::string_view name(FrameClock clock) {
-  return clock == FrameClock::kTimerQueries ? "timer queries" : "wall clock";
-}
-
 FrameClock frame_clock(const GlContext& context) {
   return context.software() ? FrameClock::kWall : FrameClock::kTimerQueries;
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "renderers/context.h"
@@ -12,7 +11,6 @@
 namespace terrabench {
 
 enum class FrameClock { kTimerQueries, kWall };
-std::string_view name(FrameClock);  // "timer queries", "wall clock"
 
 // The clock for the context, which must be current.
 FrameClock frame_clock(const GlContext&);

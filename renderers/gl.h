@@ -1,5 +1,5 @@
 // OpenGL 4.5 with owning types for its objects; shader errors throw with the compiler's log. Only for the
-// sources in renderers/; others use context.h, scene.h and relief.h. A context must be current wherever an
+// sources in renderers/; others use context.h and scene.h. A context must be current wherever an
 // object is created or deleted.
 #pragma once
 
@@ -24,13 +24,13 @@ void load_gl(GLADloadfunc get_function, std::string_view library);
 void check_gl(std::string_view where);
 Error context_lost(std::string_view where);
 
-// Owns one OpenGL object, which Kind creates and destroys.
-template <class Kind>
+// Owns one OpenGL object, by the functions that create and delete `n` of its kind.
+template <auto& kCreate, auto& kDelete, GLenum... kTarget>
 class GlObject {
  public:
-  GlObject() : id_(Kind::create()) {}
+  GlObject() { kCreate(kTarget..., 1, &id_); }
   ~GlObject() {
-    if (id_ != 0) Kind::destroy(id_);
+    if (id_ != 0) kDelete(1, &id_);
   }
   GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
   GlObject& operator=(GlObject&& other) noexcept {
@@ -40,57 +40,26 @@ class GlObject {
   GLuint id() const { return id_; }
 
  private:
-  GLuint id_;
+  GLuint id_ = 0;
 };
 
-template <class Create, class... Target>
-GLuint create_one(Create create, Target... target) {
-  GLuint id = 0;
-  create(target..., 1, &id);
-  return id;
-}
+inline void create_programs(GLsizei, GLuint* id) { *id = glCreateProgram(); }
+inline void delete_programs(GLsizei, const GLuint* id) { glDeleteProgram(*id); }
 
-struct BufferKind {
-  static GLuint create() { return create_one(glCreateBuffers); }
-  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
-};
-struct VertexArrayKind {
-  static GLuint create() { return create_one(glCreateVertexArrays); }
-  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
-};
-struct RenderbufferKind {
-  static GLuint create() { return create_one(glCreateRenderbuffers); }
-  static void destroy(GLuint id) { glDeleteRenderbuffers(1, &id); }
-};
-struct FramebufferKind {
-  static GLuint create() { return create_one(glCreateFramebuffers); }
-  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
-};
+using Program = GlObject<create_programs, delete_programs>;
+using Buffer = GlObject<glCreateBuffers, glDeleteBuffers>;
+using VertexArray = GlObject<glCreateVertexArrays, glDeleteVertexArrays>;
+using Renderbuffer = GlObject<glCreateRenderbuffers, glDeleteRenderbuffers>;
+using Framebuffer = GlObject<glCreateFramebuffers, glDeleteFramebuffers>;
 template <GLenum kTarget>
-struct TextureKind {
-  static GLuint create() { return create_one(glCreateTextures, kTarget); }
-  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
-};
+using Texture = GlObject<glCreateTextures, glDeleteTextures, kTarget>;
 template <GLenum kTarget>
-struct QueryKind {
-  static GLuint create() { return create_one(glCreateQueries, kTarget); }
-  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
-};
-struct ProgramKind {
-  static GLuint create() { return glCreateProgram(); }
-  static void destroy(GLuint id) { glDeleteProgram(id); }
-};
-
-using Buffer = GlObject<BufferKind>;
-using VertexArray = GlObject<VertexArrayKind>;
-using Renderbuffer = GlObject<RenderbufferKind>;
-using Framebuffer = GlObject<FramebufferKind>;
-using Texture1d = GlObject<TextureKind<GL_TEXTURE_1D>>;
-using Texture2dArray = GlObject<TextureKind<GL_TEXTURE_2D_ARRAY>>;
-using TimeQuery = GlObject<QueryKind<GL_TIME_ELAPSED>>;
-using PrimitiveQuery = GlObject<QueryKind<GL_PRIMITIVES_GENERATED>>;
-using BufferTexture = GlObject<TextureKind<GL_TEXTURE_BUFFER>>;
-using Program = GlObject<ProgramKind>;
+using Query = GlObject<glCreateQueries, glDeleteQueries, kTarget>;
+using Texture1d = Texture<GL_TEXTURE_1D>;
+using Texture2dArray = Texture<GL_TEXTURE_2D_ARRAY>;
+using BufferTexture = Texture<GL_TEXTURE_BUFFER>;
+using TimeQuery = Query<GL_TIME_ELAPSED>;
+using PrimitiveQuery = Query<GL_PRIMITIVES_GENERATED>;
 
 // An immutable buffer with this content.
 template <class T>
@@ -108,7 +77,7 @@ class VisibleQuery {
   bool any() const;  // waits for the GPU
 
  private:
-  GlObject<QueryKind<GL_ANY_SAMPLES_PASSED>> query_;
+  Query<GL_ANY_SAMPLES_PASSED> query_;
 };
 
 // The shaders of renderers/shaders, built into the program (cmake/embed.cmake), by file name, which must

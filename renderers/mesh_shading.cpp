@@ -1,10 +1,10 @@
-#include "renderers/mesh_shading.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
+
+#include "renderers/scene_parts.h"
 
 namespace terrabench {
 

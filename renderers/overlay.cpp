@@ -1,5 +1,3 @@
-#include "renderers/overlay.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include <span>
 
 #include "renderers/gl.h"
+#include "renderers/scene_parts.h"
 
 namespace terrabench {
 namespace {

@@ -44,4 +44,23 @@ glm::vec3 to_srgb(const glm::vec3& linear) {
   return encoded;
 }
 
+glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
+
+Rgb srgb_bytes(const glm::vec3& linear) {
+  const glm::vec3 bytes = glm::floor(to_srgb(linear) * 255.0F + 0.5F);
+  return {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
+          static_cast<std::uint8_t>(bytes.z)};
+}
+
+glm::vec3 tone_mapped(const glm::vec3& color) {
+  // The published curve also subtracts the mirrored light of paint from dark colours, which terrain lacks.
+  constexpr float kStart = 0.8F, kDesaturation = 0.15F;
+  const float peak = std::max({color.x, color.y, color.z});
+  if (peak < kStart) return color;
+  constexpr float kRange = 1 - kStart;
+  const float bright = 1 - kRange * kRange / (peak + kRange - kStart);
+  const float white = 1 - 1 / (kDesaturation * (peak - bright) + 1);
+  return glm::clamp(glm::mix(color * (bright / peak), glm::vec3(bright), white), 0.0F, 1.0F);
+}
+
 }  // namespace terrabench

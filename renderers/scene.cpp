@@ -10,10 +10,9 @@
 #include <optional>
 
 #include "renderers/gl.h"
-#include "renderers/mesh_shading.h"
-#include "renderers/overlay.h"
+#include "renderers/ramp.h"
+#include "renderers/scene_parts.h"
 #include "renderers/target.h"
-#include "renderers/wires.h"
 #include "terrain/framing.h"
 
 namespace terrabench {
@@ -81,8 +80,6 @@ void draw_triangles(const TriangleMesh& mesh, const Before& before) {
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset);
   }
 }
-
-glm::vec3 as_shares(const Rgb& color) { return glm::vec3(color[0], color[1], color[2]) / 255.0F; }
 
 void set(const Program& program, const char* name, const glm::vec3& value) {
   glProgramUniform3fv(program.id(), uniform(program, name), 1, glm::value_ptr(value));
@@ -221,14 +218,26 @@ Image render_scene(GlContext& context, const Scene& scene, const View& view) {
     empty = empty && item.mesh->triangles() == 0;
   }
   context.make_current();
-  RenderTarget& target = context.target();
-  target.resize(view.width, view.height);
-  target.bind();
-  const glm::vec3 background = as_shares(scene.background);
-  glClearColor(background.r, background.g, background.b, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  context.target().begin(view.width, view.height, scene.background);
   if (!empty) draw(scene, view);
-  return target.read();
+  return context.target().read();
+}
+
+Image render_relief(GlContext& context, const TriangleMesh& mesh, const View& view,
+                    const ReliefStyle& style) {
+  Scene scene;
+  scene.lowest = style.lowest;
+  scene.highest = style.highest;
+  scene.sun = style.sun;
+  scene.background = style.background;
+  SceneMesh& drawn = scene.meshes.emplace_back();
+  drawn.mesh = &mesh;
+  drawn.shading_exaggeration = style.shading_exaggeration;
+  if (style.wireframe) {
+    drawn.wire_width = 1;
+    drawn.wire_opacity = 0.55F;
+  }
+  return render_scene(context, scene, view);
 }
 
 }  // namespace terrabench

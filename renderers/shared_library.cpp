@@ -12,12 +12,12 @@ SharedLibrary::SharedLibrary(const char* path, std::string_view missing, const c
   if (handle_ == nullptr) throw MachineError(missing, path, advice);
 }
 
-void* SharedLibrary::symbol(const char* name) const {
+SharedLibrary::Symbol SharedLibrary::operator[](const char* name) const {
   void* const found = dlsym(handle_, name);
   if (found == nullptr) {
     throw MachineError(fmt::format("the library lacks the function {}", name), path_, advice_);
   }
-  return found;
+  return {found};
 }
 
 }  // namespace terrabench

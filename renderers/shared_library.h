@@ -13,15 +13,18 @@ class SharedLibrary {
   // `path` and `advice` must outlive the object. Throws environment_error with `missing` as what went wrong.
   SharedLibrary(const char* path, std::string_view missing, const char* advice);
 
-  // Sets `function` to the symbol of that name; throws environment_error if the library has none.
-  template <class Function>
-  void find(const char* name, Function& function) const {
-    function = reinterpret_cast<Function>(symbol(name));
-  }
+  // Of any function's type.
+  struct Symbol {
+    void* address;
+    template <class Function>
+    operator Function*() const {  // NOLINT(google-explicit-constructor): initialises pointers to functions
+      return reinterpret_cast<Function*>(address);
+    }
+  };
+  // The symbol of that name; throws environment_error if the library has none.
+  Symbol operator[](const char* name) const;
 
  private:
-  void* symbol(const char* name) const;
-
   const char* path_;
   const char* advice_;
   void* handle_;

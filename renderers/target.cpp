@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "renderers/context.h"
+#include "renderers/ramp.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
 
@@ -54,6 +55,14 @@ void RenderTarget::resize(int width, int height) {
 void RenderTarget::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
   glViewport(0, 0, width_, height_);
+}
+
+void RenderTarget::begin(int width, int height, const Rgb& background) {
+  resize(width, height);
+  bind();
+  const glm::vec3 color = as_shares(background);
+  glClearColor(color.r, color.g, color.b, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void RenderTarget::average() const {

@@ -19,6 +19,8 @@ class RenderTarget {
   void resize(int width, int height);
   // Makes it the target of draw calls, with the viewport over the whole picture.
   void bind() const;
+  // As bind(), of this size and with this colour everywhere, behind everything.
+  void begin(int width, int height, const Rgb& background);
   // Averages the samples, as a frame that is shown needs; the two below do so themselves.
   void average() const;
   // Averages the samples and reads the picture back.

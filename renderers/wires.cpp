@@ -1,9 +1,9 @@
-#include "renderers/wires.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "renderers/scene_parts.h"
 
 namespace terrabench {
 namespace {

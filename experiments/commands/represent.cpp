@@ -9,9 +9,9 @@
 #include "experiments/fidelity.h"
 #include "experiments/named_model.h"
 #include "experiments/stopwatch.h"
+#include "renderers/raytrace/ray_scene.h"
 #include "renderers/raytrace/raytraced_picture.h"
-#include "renderers/raytrace/relief_scene.h"
-#include "renderers/relief.h"
+#include "renderers/scene.h"
 #include "representations/edit_tools.h"
 #include "representations/export/export.h"
 #include "representations/layered_stack/thermal_erosion.h"
@@ -144,7 +144,7 @@ void draw(const RepresentArguments& a, const Representation& built, Bounds bound
   if (a.renderer == kRaytrace) {
     const RayScene scene = relief_scene(mesh, bounds.low.y, bounds.high.y);
     const Stopwatch watch;
-    write_picture(a.render, raytrace(scene, view, {.samples = a.samples}, {}, &progress));
+    write_picture(a.render, raytrace(scene, view, {.samples = a.samples}, &progress));
     fmt::print("rendered    {} ({} triangles, Embree {}, {} samples per pixel in {:.3g} s)\n", a.render,
                mesh.triangles(), RayIndex::embree_version(), a.samples, watch.seconds());
     return;

@@ -1,4 +1,6 @@
 // Grass of "hybrid" (§3.3): Table 3, the slope angle, points by barycentric coordinates, and random numbers.
+#include "renderers/grass/grass.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "experiments/hybrid/grounds.h"
 #include "renderers/frame_timer.h"
 #include "renderers/grass/grass_scene.h"
-#include "renderers/grass/strand.h"
 #include "terrain/metrics/image_error.h"
 
 namespace terrabench::hybrid {

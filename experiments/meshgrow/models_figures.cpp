@@ -96,7 +96,7 @@ class Picture {
     } else {
       scene.background = glm::vec3(1);
     }
-    return {raytrace(scene, view_, settings_, {}, &progress_),
+    return {raytrace(scene, view_, settings_, &progress_),
             fmt::format("{}{} triangles", words, format_count(mesh.mesh.triangles()))};
   }
 
@@ -116,7 +116,7 @@ class Picture {
                       .material = {.albedo = glm::vec3(0.85F)},
                       .wire_width = 1.6F,
                       .wires = mesh.wires});
-    return {raytrace(scene, view, settings, {}, &progress_), "before subdivision"};
+    return {raytrace(scene, view, settings, &progress_), "before subdivision"};
   }
 
  private:

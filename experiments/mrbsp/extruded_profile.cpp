@@ -7,8 +7,8 @@
 
 #include "experiments/mrbsp/ground.h"
 #include "lod/lod.h"
+#include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/mrbsp.h"
-#include "lod/mrbsp/surface_height.h"
 
 namespace terrabench::mrbsp {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lod/mrbsp/surface_height.h"
+#include "lod/mrbsp/bisection_tree.h"
 #include "terrain/sources/drawing/drawing.h"
 #include "terrain/sources/fractal/diamond_square.h"
 

@@ -7,9 +7,9 @@
 
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
+#include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/height_points.h"
 #include "lod/mrbsp/subset_triangles.h"
-#include "lod/mrbsp/surface_height.h"
 
 namespace terrabench::mrbsp {
 namespace {

@@ -80,10 +80,7 @@ Smoothed compare(const Heightfield& field, const Heightfield& drawn, const Drawi
   return result;
 }
 
-Rgb ramp_rgb(double t) {
-  const glm::vec3 c = to_srgb(ramp_color(static_cast<float>(t))) * 255.0F + 0.5F;
-  return {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y), static_cast<std::uint8_t>(c.z)};
-}
+Rgb ramp_rgb(double t) { return srgb_bytes(ramp_color(static_cast<float>(t))); }
 
 std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
 

@@ -13,7 +13,7 @@
 #include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "lod/meters/bare_pixels.h"
-#include "lod/mrbsp/hole_rule.h"
+#include "lod/mrbsp/lod_rule.h"
 #include "renderers/frame_renderer.h"
 #include "renderers/scene.h"
 #include "results/store/format.h"

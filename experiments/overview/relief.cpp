@@ -1,6 +1,4 @@
 // Every terrain in every representation: build time, bytes, fidelity and a picture.
-#include "renderers/relief.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 #include "experiments/refusals.h"
 #include "experiments/samples.h"
 #include "experiments/stopwatch.h"
+#include "renderers/scene.h"
 #include "representations/representation.h"
 #include "results/store/format.h"
 #include "terrain/files.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lod/memory.h"
 #include "terrain/frustum.h"
 
 namespace terrabench {
@@ -104,13 +105,9 @@ const Frame& BruteForce::update(const View& view) {
 }
 
 Memory BruteForce::memory() const {
-  Memory memory = index_memory(blocks_);
+  Memory memory = index_memory(blocks_, shapes_, batches_, uploads_, edits_);
   memory.index += heap_bytes(this);
-  memory += index_memory(shapes_);
   memory += payload_memory(indices_);
-  memory += index_memory(batches_);
-  memory += index_memory(uploads_);
-  memory += index_memory(edits_);
   return memory;
 }
 

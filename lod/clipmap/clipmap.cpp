@@ -13,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "lod/memory.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
 
@@ -362,21 +363,14 @@ Memory Clipmap::memory() const {
   Memory memory;
   memory.index += heap_bytes(this) + source_->bytes();
   memory += payload_memory(pattern_.indices);
-  memory += index_memory(pattern_.rows);
-  for (const auto* blocks : {&pattern_.ring, &pattern_.middle, &pattern_.trims})
-    memory += index_memory(*blocks);
+  memory += index_memory(pattern_.rows, pattern_.ring, pattern_.middle, pattern_.trims);
   for (const LevelStorage& level : storage_) {
     memory += payload_memory(level.heights);
     memory += level.tile_bounds.memory();
-    memory += index_memory(level.block_heights);
-    memory += index_memory(level.block_ends);
-    memory += index_memory(level.ranges);
+    memory += index_memory(level.block_heights, level.block_ends, level.ranges);
   }
   memory.index += heap_bytes(storage_.data());
-  memory += index_memory(clip_levels_);
-  memory += index_memory(batches_);
-  memory += index_memory(uploads_);
-  memory += index_memory(edits_);
+  memory += index_memory(clip_levels_, batches_, uploads_, edits_);
   return memory;
 }
 

@@ -42,7 +42,7 @@ class Clipmap : public Lod {
   Memory memory() const override;
 
   // From the next update() on, views and frames count metres from this sample. Throws usage_error when the
-  // sample is not on the ground. Over endless ground (endless_heights.h), move it along with the eye, so that
+  // sample is not on the ground. Over endless ground (endless_heights()), move it along with the eye, so that
   // coordinates stay small enough for a float; this is free, since windows are placed by whole samples.
   void move_origin(glm::ivec2 sample);
   glm::ivec2 origin() const { return origin_; }

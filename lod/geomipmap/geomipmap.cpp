@@ -6,6 +6,7 @@
 #include <bit>
 #include <utility>
 
+#include "lod/memory.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -227,15 +228,8 @@ Memory GeoMipMap::memory() const {
   memory.index += heap_bytes(this);
   memory += morphing_ ? morphing_->memory() : errors_->memory();
   memory += tree_.memory();
-  for (const auto* bytes : {&level_, &last_level_, &queued_}) memory += index_memory(*bytes);
-  for (const auto* seen : {&seen_, &last_seen_}) memory += index_memory(*seen);
-  memory += index_memory(number_of_);
-  memory += index_memory(allowed_);
-  memory += index_memory(queue_);
-  memory += index_memory(batches_);
-  memory += index_memory(morphs_);
-  memory += index_memory(uploads_);
-  memory += index_memory(edits_);
+  memory += index_memory(level_, last_level_, queued_, seen_, last_seen_, number_of_, allowed_, queue_,
+                         batches_, morphs_, uploads_, edits_);
   return memory;
 }
 

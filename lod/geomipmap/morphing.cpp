@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "lod/memory.h"
+
 namespace terrabench {
 namespace {
 
@@ -216,14 +218,7 @@ PatchMorph Morphing::morph(std::uint32_t slot) const {
 }
 
 Memory Morphing::memory() const {
-  Memory memory = index_memory(errors_);
-  memory += index_memory(strips_);
-  memory += index_memory(rounding_);
-  memory += index_memory(allowed_);
-  memory += index_memory(level_);
-  memory += index_memory(queued_);
-  memory += index_memory(queue_);
-  return memory;
+  return index_memory(errors_, strips_, rounding_, allowed_, level_, queued_, queue_);
 }
 
 }  // namespace terrabench

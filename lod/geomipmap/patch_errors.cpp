@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lod/memory.h"
+
 namespace terrabench {
 namespace {
 
@@ -66,10 +68,6 @@ void PatchErrors::measure(const GroundGrid& grid, const PatchGrid& cut, const Pa
   });
 }
 
-Memory PatchErrors::memory() const {
-  Memory memory = index_memory(errors_);
-  memory += index_memory(seams_);
-  return memory;
-}
+Memory PatchErrors::memory() const { return index_memory(errors_, seams_); }
 
 }  // namespace terrabench

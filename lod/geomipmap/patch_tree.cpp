@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "lod/memory.h"
+
 namespace terrabench {
 
 PatchTree::PatchTree(const GroundGrid& grid, const PatchGrid& cut)
@@ -118,12 +120,9 @@ void PatchTree::collect(int layer, int at_x, int at_z, unsigned planes, const Fr
 }
 
 Memory PatchTree::memory() const {
-  Memory memory = index_memory(layers_);
-  memory += index_memory(quads_);
-  memory += index_memory(places_);
+  Memory memory = index_memory(layers_, quads_, places_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    memory += index_memory(boxes_.low[axis]);
-    memory += index_memory(boxes_.high[axis]);
+    memory += index_memory(boxes_.low[axis], boxes_.high[axis]);
   }
   return memory;
 }

@@ -8,6 +8,8 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "lod/memory.h"
+
 namespace terrabench::hybrid {
 
 // Threads beside the caller's, behind all other work.
@@ -109,9 +111,7 @@ Memory ChunkStore::memory() const {
   memory.index += heap_bytes(chunks_.data()) + heap_bytes(background_.get());
   for (const Chunk& chunk : chunks_) {
     for (const TriangleMesh* mesh : {&chunk.mesh, &chunk.joined}) {
-      memory += payload_memory(mesh->positions);
-      memory += payload_memory(mesh->normals);
-      memory += payload_memory(mesh->indices);
+      memory += payload_memory(mesh->positions, mesh->normals, mesh->indices);
     }
   }
   return memory;

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <tuple>
 
+#include "lod/memory.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
 
@@ -224,8 +225,7 @@ Memory Hybrid::memory() const {
   memory += far_->memory();
   memory += index_memory(near_);
   memory.index += heap_bytes(candidates_.data());
-  memory += index_memory(meshes_);
-  memory += index_memory(uploads_);
+  memory += index_memory(meshes_, uploads_);
   return memory;
 }
 

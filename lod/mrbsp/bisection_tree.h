@@ -19,6 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include "terrain/frame.h"
+
 namespace terrabench {
 
 // Corners counter-clockwise from above, the right angle first.
@@ -97,5 +99,13 @@ class BisectionTree {
 std::string label(NodeNumber node);
 // False for anything but 1 to kDeepest digits 0 or 1.
 bool parse_label(std::string_view text, NodeNumber& node);
+
+// Bilinear interpolation of the four samples around (x, z), which are in samples and inside the field. O(1).
+float sample_height(const GroundGrid&, float x, float z);
+
+// Height of the tree's finest triangles at (x, z) in metres, clamped to the field. The triangles do not use
+// all samples at even depths, so an eye placed by the samples alone may be below them. In a triangle that
+// extends beyond the field, the height of its highest corner. O(depth).
+float surface_height(const BisectionTree&, const GroundGrid&, float x, float z);
 
 }  // namespace terrabench

@@ -7,10 +7,16 @@
 // than the formula says. O(1).
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <string_view>
+#include <vector>
+
+#include "lod/memory.h"
+#include "lod/mrbsp/bisection_tree.h"
 
 namespace terrabench {
 
@@ -36,6 +42,63 @@ class LodRule {
   int deepest_;
   bool area_consistent_;
   float per_square_;  // 1/S²
+};
+
+// How holes are avoided where triangles of different depth meet (MRBSP paper, §3).
+//
+// Printed: a triangle is drawn as its two halves if its right angle alone has a lower threshold than the
+// other two corners. The rule looks at one triangle only, so it leaves holes where neighbours differ in
+// another way.
+// Conforming: a vertex splits triangles only together with its parents (BisectionTree::parents()), so these
+// split too, whatever their thresholds. This adds the fewest splits that leave no hole.
+enum class HoleRule : std::uint8_t { kConforming, kPrinted, kNone };  // kNone: for measurements
+inline constexpr std::string_view kHoleRuleNames[] = {"conforming", "printed", "left"};
+
+// The printed rule: whether a hole may open at the centre of the hypotenuse, given the corners' thresholds.
+inline bool may_open(int apex, int left, int right, int deepest) {
+  return std::min(apex, deepest) < std::min({left, right, deepest});
+}
+
+// The conforming rule: the vertices at which triangles are split. One bit per vertex.
+class SplitVertices {
+ public:
+  explicit SplitVertices(const BisectionTree& tree) : tree_(tree) {
+    const std::size_t along = static_cast<std::size_t>(tree.side()) + 1;
+    bits_.resize((along * along + 63) / 64);
+  }
+
+  bool has(glm::ivec2 vertex) const {
+    const std::size_t bit = bit_of(vertex);
+    return ((bits_[bit / 64] >> (bit % 64)) & 1) != 0;
+  }
+  // Adds the vertex and its ancestors. The recursion is at most as deep as the tree: parents lie one level
+  // above.
+  void add(glm::ivec2 vertex) {
+    const std::size_t bit = bit_of(vertex);
+    std::uint64_t& word = bits_[bit / 64];
+    const std::uint64_t mask = std::uint64_t{1} << (bit % 64);
+    if ((word & mask) != 0) return;
+    if (word == 0) marked_.push_back(static_cast<std::uint32_t>(bit / 64));
+    word |= mask;
+    const BisectionTree::Parents parents = tree_.parents(vertex);
+    for (int k = 0; k < parents.count; ++k) add(parents.at[k]);
+  }
+  // O(vertices added).
+  void clear() {
+    for (const std::uint32_t word : marked_) bits_[word] = 0;
+    marked_.clear();
+  }
+  Memory memory() const { return index_memory(bits_, marked_); }
+
+ private:
+  std::size_t bit_of(glm::ivec2 at) const {
+    return static_cast<std::size_t>(at.y) * (static_cast<std::size_t>(tree_.side()) + 1) +
+           static_cast<std::size_t>(at.x);
+  }
+
+  BisectionTree tree_;
+  std::vector<std::uint64_t> bits_;
+  std::vector<std::uint32_t> marked_;  // non-zero words of bits_
 };
 
 }  // namespace terrabench

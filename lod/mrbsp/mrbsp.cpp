@@ -5,8 +5,9 @@
 #include <glm/common.hpp>
 #include <iterator>
 
+#include "lod/memory.h"
+#include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/height_points.h"
-#include "lod/mrbsp/surface_height.h"
 #include "lod/mrbsp/visibility/codec.h"
 #include "terrain/error.h"
 
@@ -195,15 +196,13 @@ void Mrbsp::publish(std::size_t toggled) {
 }
 
 Memory Mrbsp::memory() const {
-  Memory memory = payload_memory(interpolated_.heights);
+  Memory memory =
+      payload_memory(interpolated_.heights, visibility_.start, visibility_.changes, indices_, next_);
   memory.index += heap_bytes(this);
-  for (const Memory& part :
-       {bounds_.memory(), splits_ ? splits_->memory() : Memory{}, index_memory(pending_),
-        payload_memory(visibility_.start), index_memory(visibility_.first),
-        payload_memory(visibility_.changes), flags_.memory(), payload_memory(indices_), payload_memory(next_),
-        index_memory(batches_), index_memory(uploads_), index_memory(edits_)}) {
-    memory += part;
-  }
+  memory += index_memory(pending_, visibility_.first, batches_, uploads_, edits_);
+  memory += bounds_.memory();
+  memory += flags_.memory();
+  if (splits_) memory += splits_->memory();
   return memory;
 }
 

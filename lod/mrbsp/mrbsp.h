@@ -4,13 +4,12 @@
 // bit per vertex.
 //
 // bisection_tree.h   §2  the tree, without stored nodes; heights from height points: height_points.h
-// lod_rule.h         §3  the depth at which a triangle is drawn
-// hole_rule.h        §3  how triangles of different depth meet
+// lod_rule.h         §3  the depth at which a triangle is drawn, and how those of different depth meet
 // visibility/sets.h  §4  which triangles the ground hides
 // tree_walk.h            the traversal that applies them; update() is O(triangles drawn)
 //
-// To follow a frame: bisection_tree.h to the numbering of nodes; LodRule; HoleRule; TreeWalk in
-// tree_walk.cpp; Mrbsp::update() and publish(). Then visibility: the opening comment of visibility/sets.h,
+// To follow a frame: bisection_tree.h to the numbering of nodes; lod_rule.h; TreeWalk in tree_walk.cpp;
+// Mrbsp::update() and publish(). Then visibility: the opening comment of visibility/sets.h,
 // find_sets(), and Flags::move_to(). What can wait: heights by interpolation, area_occlusion.h, the codec and
 // its two forms.
 #pragma once

@@ -1,6 +1,6 @@
 // One traversal of the tree for one view (MRBSP paper, §3 and §4) chooses the triangles to draw. It skips
-// nodes outside the view frustum and hidden nodes (visibility/flags.h). lod_rule.h says how deep it descends,
-// hole_rule.h where it splits a triangle further to avoid a hole. O(triangles drawn).
+// nodes outside the view frustum and hidden nodes (visibility/change_table.h). lod_rule.h says how deep it
+// descends, and where it splits a triangle further to avoid a hole. O(triangles drawn).
 //
 // For a field that is not a square of 2^k + 1 samples, the tree's square extends beyond the field, and
 // vertices outside are clamped to the field's border. Clamping keeps the order in x and in z, so the
@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "lod/mrbsp/bisection_tree.h"
-#include "lod/mrbsp/hole_rule.h"
 #include "lod/mrbsp/lod_rule.h"
 #include "lod/mrbsp/triangle_bounds.h"
-#include "lod/mrbsp/visibility/flags.h"
+#include "lod/mrbsp/visibility/change_table.h"
 #include "terrain/frame.h"
 #include "terrain/frustum.h"
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lod/memory.h"
+
 namespace terrabench::roam {
 
 // Zeroes the memory to touch its pages now: page faults would cost the first frame more than its splits.
@@ -76,9 +78,7 @@ void DrawList::finish(std::vector<Node>& nodes, std::vector<DirtyRange>& uploads
 
 Memory DrawList::memory() const {
   Memory memory = payload_memory(indices_);
-  memory += index_memory(owners_);
-  memory += index_memory(free_);
-  memory += index_memory(dirty_);
+  memory += index_memory(owners_, free_, dirty_);
   return memory;
 }
 

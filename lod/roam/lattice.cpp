@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "lod/memory.h"
+
 namespace terrabench::roam {
 namespace {
 
@@ -37,10 +39,6 @@ Lattice lattice_over(int width, int depth) {
   return lattice;
 }
 
-Memory Lattice::memory() const {
-  Memory memory = index_memory(column);
-  memory += index_memory(row);
-  return memory;
-}
+Memory Lattice::memory() const { return index_memory(column, row); }
 
 }  // namespace terrabench::roam

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "terrain/memory.h"
+#include "lod/memory.h"
 
 namespace terrabench::roam {
 
@@ -117,11 +117,7 @@ class NodeLists {
     return -1;
   }
 
-  Memory memory() const {
-    Memory memory = index_memory(heads_);
-    memory += index_memory(used_);
-    return memory;
-  }
+  Memory memory() const { return index_memory(heads_, used_); }
 
  private:
   std::vector<std::uint32_t> heads_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lod/memory.h"
+
 namespace terrabench {
 
 using roam::CullLabel;
@@ -218,13 +220,8 @@ Memory Roam::memory() const {
   memory += merges_.memory();
   memory += deferred_.memory();
   memory += drawn_.memory();
-  memory += index_memory(expired_);
-  memory += index_memory(split_diamonds_);
-  memory += index_memory(ranked_leaves_);
-  memory += index_memory(labels_valid_until_);
-  memory += index_memory(batches_);
-  memory += index_memory(uploads_);
-  memory += index_memory(edits_);
+  memory += index_memory(expired_, split_diamonds_, ranked_leaves_, labels_valid_until_, batches_, uploads_,
+                         edits_);
   return memory;
 }
 

@@ -1,4 +1,4 @@
-#include "renderers/egl/egl_context.h"
+#include "renderers/contexts.h"
 
 // Without EGL_NO_X11, EGL's header includes Xlib, whose macros break other headers.
 #define EGL_NO_X11
@@ -23,18 +23,27 @@ constexpr const char* kAdvice =
 
 // The functions of EGL/egl.h that are used, and those of the extensions for devices.
 struct Library {
-  decltype(&eglQueryString) query_string;
-  decltype(&eglInitialize) initialize;
-  decltype(&eglBindAPI) bind_api;
-  decltype(&eglChooseConfig) choose_config;
-  decltype(&eglCreateContext) create_context;
-  decltype(&eglDestroyContext) destroy_context;
-  decltype(&eglMakeCurrent) make_current;
-  decltype(&eglGetError) get_error;
-  decltype(&eglGetProcAddress) get_function;
-  PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null when the extension is absent, as those below
-  PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr;
-  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
+  explicit Library(const char* path) : from(path, "EGL is not installed", kAdvice) {}
+
+  SharedLibrary from;
+  decltype(&eglQueryString) query_string = from["eglQueryString"];
+  decltype(&eglInitialize) initialize = from["eglInitialize"];
+  decltype(&eglBindAPI) bind_api = from["eglBindAPI"];
+  decltype(&eglChooseConfig) choose_config = from["eglChooseConfig"];
+  decltype(&eglCreateContext) create_context = from["eglCreateContext"];
+  decltype(&eglDestroyContext) destroy_context = from["eglDestroyContext"];
+  decltype(&eglMakeCurrent) make_current = from["eglMakeCurrent"];
+  decltype(&eglGetError) get_error = from["eglGetError"];
+  decltype(&eglGetProcAddress) get_function = from["eglGetProcAddress"];
+  // Null when the extension is absent.
+  PFNEGLQUERYDEVICESEXTPROC query_devices = extension("eglQueryDevicesEXT");
+  PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = extension("eglQueryDeviceStringEXT");
+  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = extension("eglGetPlatformDisplayEXT");
+
+ private:
+  SharedLibrary::Symbol extension(const char* name) const {
+    return {reinterpret_cast<void*>(get_function(name))};
+  }
 };
 
 bool has_word(const char* words, std::string_view word) {
@@ -45,27 +54,6 @@ bool has_word(const char* words, std::string_view word) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return false;
-}
-
-Library load_library(const char* path) {
-  const SharedLibrary library(path, "EGL is not installed", kAdvice);
-  Library egl{};
-  library.find("eglQueryString", egl.query_string);
-  library.find("eglInitialize", egl.initialize);
-  library.find("eglBindAPI", egl.bind_api);
-  library.find("eglChooseConfig", egl.choose_config);
-  library.find("eglCreateContext", egl.create_context);
-  library.find("eglDestroyContext", egl.destroy_context);
-  library.find("eglMakeCurrent", egl.make_current);
-  library.find("eglGetError", egl.get_error);
-  library.find("eglGetProcAddress", egl.get_function);
-  const auto extension = [&](const char* name, auto& function) {
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(egl.get_function(name));
-  };
-  extension("eglQueryDevicesEXT", egl.query_devices);
-  extension("eglQueryDeviceStringEXT", egl.query_device_string);
-  extension("eglGetPlatformDisplayEXT", egl.get_platform_display);
-  return egl;
 }
 
 // The displays to try, in order. EGL returns the same display for the same device each time.
@@ -131,15 +119,11 @@ std::optional<Opened> try_display(const Library& egl, EGLDisplay display) {
 
 class EglContext final : public GlContext {
  public:
-  EglContext(const Library& egl, const Opened& opened, int width, int height) : egl_(egl), opened_(opened) {
-    try {
-      open_target(width, height);
-    } catch (...) {
-      close();
-      throw;
-    }
+  EglContext(const Library& egl, const Opened& opened) : egl_(egl), opened_(opened) {}
+  ~EglContext() override {
+    close_target();
+    egl_.destroy_context(opened_.display, opened_.context);
   }
-  ~EglContext() override { close(); }
 
  private:
   void acquire() override {
@@ -156,10 +140,6 @@ class EglContext final : public GlContext {
     egl_.bind_api(EGL_OPENGL_API);
     egl_.make_current(opened_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
-  void close() {
-    close_target();
-    egl_.destroy_context(opened_.display, opened_.context);
-  }
 
   Library egl_;
   Opened opened_;
@@ -168,12 +148,12 @@ class EglContext final : public GlContext {
 }  // namespace
 
 std::unique_ptr<GlContext> open_egl(int width, int height, EglDevices devices, const char* library) {
-  const Library egl = load_library(library);
+  const Library egl(library);
   for (const EGLDisplay display : displays(egl, devices)) {
     // try_display() makes its context current for a moment, in the place of one of another library.
     GlContext::leave_current();
     if (const auto opened = try_display(egl, display)) {
-      return std::make_unique<EglContext>(egl, *opened, width, height);
+      return with_target(std::make_unique<EglContext>(egl, *opened), width, height);
     }
   }
   throw MachineError(devices == EglDevices::kGpus ? "no GPU has OpenGL 4.5" : "no device has OpenGL 4.5",

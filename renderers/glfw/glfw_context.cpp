@@ -1,4 +1,4 @@
-#include "renderers/glfw/glfw_context.h"
+#include "renderers/contexts.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -19,37 +19,22 @@ constexpr const char* kAdvice = "install Debian's package libglfw3, or choose --
 
 // The functions of GLFW/glfw3.h that are used.
 struct Library {
-  decltype(&glfwInit) init;
-  decltype(&glfwGetError) get_error;
-  decltype(&glfwDefaultWindowHints) default_hints;
-  decltype(&glfwWindowHint) hint;
-  decltype(&glfwCreateWindow) create;
-  decltype(&glfwDestroyWindow) destroy;
-  decltype(&glfwMakeContextCurrent) make_current;
-  decltype(&glfwGetProcAddress) get_function;
-  decltype(&glfwSwapInterval) swap_interval;
-  decltype(&glfwSwapBuffers) swap_buffers;
-  decltype(&glfwPollEvents) poll_events;
-  decltype(&glfwGetFramebufferSize) framebuffer_size;
-};
+  explicit Library(const char* path) : from(path, "GLFW is not installed", kAdvice) {}
 
-Library load_library(const char* path) {
-  const SharedLibrary library(path, "GLFW is not installed", kAdvice);
-  Library glfw{};
-  library.find("glfwInit", glfw.init);
-  library.find("glfwGetError", glfw.get_error);
-  library.find("glfwDefaultWindowHints", glfw.default_hints);
-  library.find("glfwWindowHint", glfw.hint);
-  library.find("glfwCreateWindow", glfw.create);
-  library.find("glfwDestroyWindow", glfw.destroy);
-  library.find("glfwMakeContextCurrent", glfw.make_current);
-  library.find("glfwGetProcAddress", glfw.get_function);
-  library.find("glfwSwapInterval", glfw.swap_interval);
-  library.find("glfwSwapBuffers", glfw.swap_buffers);
-  library.find("glfwPollEvents", glfw.poll_events);
-  library.find("glfwGetFramebufferSize", glfw.framebuffer_size);
-  return glfw;
-}
+  SharedLibrary from;
+  decltype(&glfwInit) init = from["glfwInit"];
+  decltype(&glfwGetError) get_error = from["glfwGetError"];
+  decltype(&glfwDefaultWindowHints) default_hints = from["glfwDefaultWindowHints"];
+  decltype(&glfwWindowHint) hint = from["glfwWindowHint"];
+  decltype(&glfwCreateWindow) create = from["glfwCreateWindow"];
+  decltype(&glfwDestroyWindow) destroy = from["glfwDestroyWindow"];
+  decltype(&glfwMakeContextCurrent) make_current = from["glfwMakeContextCurrent"];
+  decltype(&glfwGetProcAddress) get_function = from["glfwGetProcAddress"];
+  decltype(&glfwSwapInterval) swap_interval = from["glfwSwapInterval"];
+  decltype(&glfwSwapBuffers) swap_buffers = from["glfwSwapBuffers"];
+  decltype(&glfwPollEvents) poll_events = from["glfwPollEvents"];
+  decltype(&glfwGetFramebufferSize) framebuffer_size = from["glfwGetFramebufferSize"];
+};
 
 // The last error of GLFW, cleared: its code and description.
 std::string last_error(const Library& glfw) {
@@ -60,16 +45,11 @@ std::string last_error(const Library& glfw) {
 
 class GlfwContext final : public GlContext {
  public:
-  GlfwContext(const Library& glfw, GLFWwindow* window, int width, int height) : glfw_(glfw), window_(window) {
-    try {
-      open_target(width, height);
-      glfw_.swap_interval(0);  // no waiting for the display's refresh
-    } catch (...) {
-      close();
-      throw;
-    }
+  GlfwContext(const Library& glfw, GLFWwindow* window) : glfw_(glfw), window_(window) {}
+  ~GlfwContext() override {
+    close_target();
+    glfw_.destroy(window_);
   }
-  ~GlfwContext() override { close(); }
 
   void present() override {
     make_current();
@@ -92,10 +72,6 @@ class GlfwContext final : public GlContext {
     load_gl(reinterpret_cast<GLADloadfunc>(glfw_.get_function), "GLFW");
   }
   void release() noexcept override { glfw_.make_current(nullptr); }
-  void close() {
-    close_target();
-    glfw_.destroy(window_);
-  }
 
   Library glfw_;
   GLFWwindow* window_;
@@ -122,7 +98,7 @@ GLFWwindow* create_window(const Library& glfw, int width, int height, bool visib
 }  // namespace
 
 std::unique_ptr<GlContext> open_glfw(int width, int height, bool visible, const char* library) {
-  const Library glfw = load_library(library);
+  const Library glfw(library);
   // Never terminated: GLFW counts no users, and Mesa's modules do not survive unloading.
   if (glfw.init() == GLFW_FALSE) {
     throw MachineError(
@@ -137,7 +113,9 @@ std::unique_ptr<GlContext> open_glfw(int width, int height, bool visible, const 
                        "install Debian's packages libgl1 and libgl1-mesa-dri or the GPU's driver, or "
                        "choose --renderer egl or osmesa");
   }
-  return std::make_unique<GlfwContext>(glfw, window, width, height);
+  auto context = with_target(std::make_unique<GlfwContext>(glfw, window), width, height);
+  glfw.swap_interval(0);  // no waiting for the display's refresh
+  return context;
 }
 
 }  // namespace terrabench

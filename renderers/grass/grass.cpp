@@ -117,11 +117,6 @@ bool outside(const Bounds& box, float margin, const glm::mat4& world_to_clip) {
 
 }  // namespace
 
-std::string_view name(GrassTechnique technique) {
-  constexpr std::string_view kNames[] = {"geometry-shader", "instancing", "indirect"};
-  return kNames[static_cast<std::size_t>(technique)];
-}
-
 struct GrassPatch::Gl {
   Gl(const GrassGround& ground, const GrassGrowth& growth) : plan(plan_grass(ground, growth)) {
     if (plan.strands() == 0) return;
@@ -180,7 +175,6 @@ GrassPatch::GrassPatch(GrassPatch&&) noexcept = default;
 GrassPatch& GrassPatch::operator=(GrassPatch&&) noexcept = default;
 
 std::int64_t GrassPatch::strands() const { return gl_->total; }
-std::size_t GrassPatch::growing_triangles() const { return gl_->triangle_count; }
 std::size_t GrassPatch::bytes() const {
   const std::size_t buffers = (gl_->grown ? 1 : 0) + (gl_->in_view ? 1 : 0);
   return gl_->ground_bytes + buffers * gl_->total * sizeof(GrassStrand) +

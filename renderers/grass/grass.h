@@ -30,7 +30,6 @@
 #include <glm/vec4.hpp>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "renderers/grass/growth.h"
@@ -40,7 +39,6 @@ namespace terrabench {
 enum class GrassTechnique : std::uint8_t { kGeometryShader, kInstancing, kIndirect };
 inline constexpr GrassTechnique kGrassTechniques[] = {GrassTechnique::kGeometryShader,
                                                       GrassTechnique::kInstancing, GrassTechnique::kIndirect};
-std::string_view name(GrassTechnique);  // "geometry-shader", "instancing", "indirect"
 
 // Camera, light, air and wind of a frame. Colours are linear light.
 struct GrassLook {
@@ -73,8 +71,6 @@ class GrassPatch {
   GrassPatch& operator=(GrassPatch&&) noexcept;
 
   std::int64_t strands() const;
-  std::int64_t billboards() const { return 2 * strands(); }
-  std::size_t growing_triangles() const;
   std::size_t bytes() const;  // on the GPU, of what the techniques used so far need
 
  private:
@@ -92,6 +88,12 @@ struct GrassStrand {
   glm::vec3 side;
   float width;  // metres
 };
+
+// The same as the processor grows it: shaders/grass_strand.glsl once more in C++, to see how far what a GPU
+// grows depends on its arithmetic (hybrid paper, §3.3). Strand `number`, counted from 1, of the triangle with
+// the corners (x, y, z) of a plan. In floats. O(1).
+GrassStrand grow_strand(const GrassGround&, const GrassGrowth&, const glm::uvec4& triangle,
+                        std::uint32_t number);
 
 // The programs and the texture, which all patches share.
 class GrassRenderer {

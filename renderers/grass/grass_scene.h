@@ -1,15 +1,32 @@
 // A piece of plain ground with grass, for pictures and frame times of grass alone.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "renderers/context.h"
 #include "renderers/grass/grass.h"
-#include "renderers/grass/plain_ground.h"
 #include "terrain/image.h"
 #include "terrain/view.h"
 
 namespace terrabench {
+
+// Ground of soil and rock below grass, in the same light and fog, where no other renderer draws the ground.
+// The context must be current where it is made, drawn and destroyed.
+class PlainGround {
+ public:
+  explicit PlainGround(const GrassGround&);  // copies it; throws environment_error when it does not fit
+  ~PlainGround();
+  PlainGround(const PlainGround&) = delete;
+  PlainGround& operator=(const PlainGround&) = delete;
+
+  // Into the bound framebuffer, as GrassRenderer::draw(). Of the look it uses all but wind and thinning.
+  void draw(const GrassLook&);
+
+ private:
+  struct Gl;
+  std::unique_ptr<Gl> gl_;
+};
 
 // The context must outlive it and be current. Throws as GrassPatch does.
 class GrassScene {

@@ -1,10 +1,10 @@
-#include "renderers/grass/strand.h"
-
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+
+#include "renderers/grass/grass.h"
 
 namespace terrabench {
 namespace {

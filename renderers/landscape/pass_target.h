@@ -6,8 +6,8 @@
 
 namespace terrabench {
 
-using Texture2d = GlObject<TextureKind<GL_TEXTURE_2D>>;
-using TextureArray = GlObject<TextureKind<GL_TEXTURE_2D_ARRAY>>;
+using Texture2d = Texture<GL_TEXTURE_2D>;
+using TextureArray = Texture<GL_TEXTURE_2D_ARRAY>;
 
 // Levels of detail of a picture of this size, down to one texel.
 int mip_levels(int width, int height);

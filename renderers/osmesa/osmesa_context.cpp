@@ -1,8 +1,7 @@
-#include "renderers/osmesa/osmesa_context.h"
-
 #include <array>
 #include <cstdint>
 
+#include "renderers/contexts.h"
 #include "renderers/gl.h"
 #include "renderers/shared_library.h"
 #include "terrain/machine_error.h"
@@ -15,34 +14,24 @@ constexpr const char* kAdvice = "install Debian's package libosmesa6, version 22
 // The four functions of GL/osmesa.h that are used, loaded at run time: a program linked to libOSMesa would
 // take all gl* functions from it, which are wrong for other contexts in the process.
 struct Library {
-  using Handle = struct OsmesaContext*;
-  Handle (*create)(const int* attributes, Handle share);
-  void (*destroy)(Handle);
-  GLboolean (*make_current)(Handle, void* pixels, GLenum type, GLsizei width, GLsizei height);
-  GLADloadfunc get_function;
-};
+  explicit Library(const char* path) : from(path, "the software renderer is not installed", kAdvice) {}
 
-Library load_library(const char* path) {
-  const SharedLibrary library(path, "the software renderer is not installed", kAdvice);
-  Library functions{};
-  library.find("OSMesaCreateContextAttribs", functions.create);
-  library.find("OSMesaDestroyContext", functions.destroy);
-  library.find("OSMesaMakeCurrent", functions.make_current);
-  library.find("OSMesaGetProcAddress", functions.get_function);
-  return functions;
-}
+  SharedLibrary from;
+  using Handle = struct OsmesaContext*;
+  Handle (*create)(const int* attributes, Handle share) = from["OSMesaCreateContextAttribs"];
+  void (*destroy)(Handle) = from["OSMesaDestroyContext"];
+  GLboolean (*make_current)(Handle, void* pixels, GLenum type, GLsizei width,
+                            GLsizei height) = from["OSMesaMakeCurrent"];
+  GLADloadfunc get_function = from["OSMesaGetProcAddress"];
+};
 
 class OsmesaContext final : public GlContext {
  public:
-  OsmesaContext(const Library& library, int width, int height) : library_(library), handle_(create(library)) {
-    try {
-      open_target(width, height);
-    } catch (...) {
-      close();
-      throw;
-    }
+  explicit OsmesaContext(const Library& library) : library_(library), handle_(create(library)) {}
+  ~OsmesaContext() override {
+    close_target();
+    library_.destroy(handle_);
   }
-  ~OsmesaContext() override { close(); }
 
  private:
   static Library::Handle create(const Library& library) {
@@ -64,11 +53,6 @@ class OsmesaContext final : public GlContext {
   }
   void release() noexcept override { library_.make_current(nullptr, nullptr, 0, 0, 0); }
 
-  void close() {
-    close_target();
-    library_.destroy(handle_);
-  }
-
   Library library_;
   Library::Handle handle_;
   // OSMesa requires memory to draw into; it is not used, because RenderTarget has its own.
@@ -78,7 +62,7 @@ class OsmesaContext final : public GlContext {
 }  // namespace
 
 std::unique_ptr<GlContext> open_osmesa(int width, int height, const char* library) {
-  return std::make_unique<OsmesaContext>(load_library(library), width, height);
+  return with_target(std::make_unique<OsmesaContext>(Library(library)), width, height);
 }
 
 }  // namespace terrabench

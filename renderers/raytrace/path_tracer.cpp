@@ -13,10 +13,6 @@
 namespace terrabench {
 namespace {
 
-// A position computed on a triangle is off by a few units in the last place of its coordinates; 64 of them
-// keep a ray that starts there from hitting the triangle itself.
-constexpr float kOffset = 64 * 0x1p-23F;
-
 const RayScene& checked(const RayScene& scene, const RaytraceSettings& settings) {
   if (settings.samples < 1 || settings.samples > 65536) {
     throw usage_error(fmt::format("invalid number of samples {}", settings.samples), "ray tracing",
@@ -34,16 +30,6 @@ RayIndex index_of(const RayScene& scene, Progress* progress) {
   std::vector<const TriangleMesh*> meshes;
   for (const RayMesh& mesh : scene.meshes) meshes.push_back(mesh.mesh);
   return {meshes, scene.instances, progress};
-}
-
-glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
-  const float length = glm::length(v);
-  return length > 0 && std::isfinite(length) ? v / length : otherwise;
-}
-
-template <class T>
-T interpolate(std::span<const T> values, const std::uint32_t* corners, const RayHit& hit) {
-  return (1 - hit.u - hit.v) * values[corners[0]] + hit.u * values[corners[1]] + hit.v * values[corners[2]];
 }
 
 }  // namespace
@@ -67,8 +53,7 @@ PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const
   s.point.triangle = hit.triangle;
   s.point.local = s.point.position = a + hit.u * ab + hit.v * ac;
   s.facet = glm::cross(ab, ac);
-  s.normal =
-      mesh.normals.empty() ? s.facet : interpolate(std::span<const glm::vec3>(mesh.normals), corners, hit);
+  s.normal = mesh.normals.empty() ? s.facet : hit.interpolate<glm::vec3>(mesh.normals, corners);
   if (placement.to_world != glm::mat4(1)) {
     const glm::mat3 linear(placement.to_world);
     // Scaled first: the product of two edges of a small triangle is close to float's limits.
@@ -88,7 +73,7 @@ PathTracer::Surface PathTracer::surface(const Ray& ray, const RayHit& hit) const
   const glm::vec3 world = glm::max(glm::abs(s.point.position), glm::abs(glm::vec3(placement.to_world[3])));
   const glm::mat3 linear(placement.to_world);
   const float scale = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-  s.offset = kOffset * std::max({world.x, world.y, world.z, scale * own.x, scale * own.y, scale * own.z});
+  s.offset = kRayOffset * std::max({world.x, world.y, world.z, scale * own.x, scale * own.y, scale * own.z});
   return s;
 }
 
@@ -97,7 +82,7 @@ RayMaterial PathTracer::material(const Surface& s, const RayHit& hit) const {
   const std::uint32_t* const corners = &mesh.mesh->indices[3 * std::size_t{hit.triangle}];
   if (!mesh.material_at) return mesh.material;
   SurfacePoint point = s.point;
-  if (!mesh.texture.empty()) point.texture = interpolate(mesh.texture, corners, hit);
+  if (!mesh.texture.empty()) point.texture = hit.interpolate(mesh.texture, corners);
   return mesh.material_at(point);
 }
 

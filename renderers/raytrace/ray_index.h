@@ -26,6 +26,10 @@ struct RayHit {
   float u = 0, v = 0;  // barycentric: (1 - u - v)·a + u·b + v·c of the triangle's corners
   std::uint32_t placement = kNone, triangle = kNone;
   bool hit() const { return placement != kNone; }
+  template <class T>
+  T interpolate(std::span<const T> values, const std::uint32_t* corners) const {
+    return (1 - u - v) * values[corners[0]] + u * values[corners[1]] + v * values[corners[2]];
+  }
 };
 
 struct MeshPlacement {

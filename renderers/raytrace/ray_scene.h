@@ -67,4 +67,9 @@ void check_scene(const RayScene&);
 // are `times` the longer side of the box. Two triangles.
 TriangleMesh ground_plane(const Bounds&, float times = 100, std::optional<float> height = {});
 
+// A terrain's mesh as a ray-traced relief for print: coloured by height with ramp.h's colours, steep sides in
+// rock grey, in a clear day's light on white paper.
+// `lowest` and `highest`: metres at the ends of the colour ramp. The scene refers to the mesh.
+RayScene relief_scene(const TriangleMesh&, float lowest, float highest);
+
 }  // namespace terrabench

@@ -153,28 +153,24 @@ glm::vec3 RaytracedPicture::radiance(int x, int y) const {
   return sums_[at] / static_cast<float>(std::max(1U, counted_[at]));
 }
 
-Image RaytracedPicture::image(const ToneMapping& mapping) const {
+Image RaytracedPicture::image() const {
   Image image(width_, height_, {0, 0, 0});
   const glm::vec3 background = tracer_.scene().background.value_or(glm::vec3(0));
   tbb::parallel_for(0, height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
       const auto samples = static_cast<float>(std::max(1, tile_at(x, y).samples));
       const float covered = static_cast<float>(counted_[pixel(x, y)]) / samples;
-      const glm::vec3 color = glm::mix(background, tone_mapped(radiance(x, y), mapping), covered);
-      const glm::vec3 bytes = glm::floor(to_srgb(color) * 255.0F + 0.5F);
-      image.set(x, y,
-                {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
-                 static_cast<std::uint8_t>(bytes.z)});
+      image.set(x, y, srgb_bytes(glm::mix(background, tone_mapped(radiance(x, y)), covered)));
     }
   });
   return image;
 }
 
 Image raytrace(const RayScene& scene, const View& view, const RaytraceSettings& settings,
-               const ToneMapping& mapping, Progress* progress) {
+               Progress* progress) {
   RaytracedPicture picture(scene, view, settings, progress);
   picture.accumulate(settings.samples, progress);
-  return picture.image(mapping);
+  return picture.image();
 }
 
 }  // namespace terrabench

@@ -10,7 +10,6 @@
 #include "renderers/raytrace/path_tracer.h"
 #include "renderers/raytrace/ray_camera.h"
 #include "renderers/raytrace/ray_scene.h"
-#include "renderers/raytrace/tone_mapping.h"
 #include "terrain/image.h"
 #include "terrain/progress.h"
 #include "terrain/view.h"
@@ -33,7 +32,7 @@ class RaytracedPicture {
   // The mean of the samples that do not show the scene's background; black for none.
   glm::vec3 radiance(int x, int y) const;
   // Surfaces and sky are tone mapped, the background is not.
-  Image image(const ToneMapping& = {}) const;
+  Image image() const;
   // The number of the instance in the middle of the pixel, plus 1; 0 for the sky.
   std::uint32_t object(int x, int y) const { return objects_[pixel(x, y)]; }
 
@@ -66,7 +65,6 @@ class RaytracedPicture {
 };
 
 // A whole picture in one call.
-Image raytrace(const RayScene&, const View&, const RaytraceSettings& = {}, const ToneMapping& = {},
-               Progress* = nullptr);
+Image raytrace(const RayScene&, const View&, const RaytraceSettings& = {}, Progress* = nullptr);
 
 }  // namespace terrabench

@@ -2,6 +2,8 @@
 // Walter et al. 2007) with Schlick's Fresnel term.
 #pragma once
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -12,6 +14,15 @@ namespace terrabench {
 // Least roughness of what is seen by reflection. Light that a smooth mirror concentrates would be found by
 // few of the paths, as bright specks (Kaplanyan & Dachsbacher 2013).
 inline constexpr float kIndirectRoughness = 0.6F;
+
+// A position computed on a triangle is off by a few units in the last place of its coordinates; 64 of them
+// keep a ray that starts there from hitting the triangle itself.
+inline constexpr float kRayOffset = 64 * 0x1p-23F;
+
+inline glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? v / length : otherwise;
+}
 
 // A right-handed frame around a unit vector (Duff et al. 2017).
 struct UnitFrame {

@@ -1,12 +1,6 @@
 #version 450 core
 in Vertex {
-  vec3 world;
-  vec3 normal;
-  vec3 paint;
-  float bend;
-  noperspective vec3 to_edge;
-  flat vec3 strength;
-  flat vec3 reach;
+#include "vertex_members.glsl"
 } vertex;
 
 uniform sampler1D ramp;        // linear light

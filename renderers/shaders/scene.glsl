@@ -1,5 +1,5 @@
 // What all shaders of a landscape share: one pass over the scene, and the style. Laid out as SceneBlock in
-// renderers/landscape/scene_block.h. Colours are linear light, lengths metres. Clip space has z in 0…1
+// renderers/landscape/landscape_gl.h. Colours are linear light, lengths metres. Clip space has z in 0…1
 // (glClipControl), 1 at the near plane and 0 at the far plane, which keeps distant depths precise; shadow maps have 0
 // nearest the sun.
 layout(std140, binding = 0) uniform Scene {

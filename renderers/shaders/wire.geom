@@ -12,23 +12,11 @@ uniform bool all_edges;       // ignore `drawn`
 uniform float wire_width;     // pixels
 
 in Vertex {
-  vec3 world;
-  vec3 normal;
-  vec3 paint;
-  float bend;
-  noperspective vec3 to_edge;
-  flat vec3 strength;
-  flat vec3 reach;
+#include "vertex_members.glsl"
 } corner[];
 
 out Vertex {
-  vec3 world;
-  vec3 normal;
-  vec3 paint;
-  float bend;
-  noperspective vec3 to_edge;
-  flat vec3 strength;  // 0 for an edge that is not drawn
-  flat vec3 reach;     // pixels of ink from an edge into the triangle
+#include "vertex_members.glsl"
 } vertex;
 
 // Lines closer together than two widths fade, so that far ground does not become solid ink.

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "lod/clipmap/clipmap.h"
-#include "lod/clipmap/endless_heights.h"
+#include "lod/clipmap/height_source.h"
 #include "terrain/sources/dem/dem.h"
 #include "tests/bench/mountains.h"
 

@@ -9,7 +9,7 @@
 #include "experiments/mrbsp/ground.h"
 #include "experiments/mrbsp/lost_pixels.h"
 #include "experiments/mrbsp/methods.h"
-#include "lod/mrbsp/surface_height.h"
+#include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/visibility/coarse_squares.h"
 #include "terrain/error.h"
 #include "tests/experiments/value.h"

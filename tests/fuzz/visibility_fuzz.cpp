@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "lod/mrbsp/visibility/change_table.h"
 #include "lod/mrbsp/visibility/codec.h"
-#include "lod/mrbsp/visibility/flags.h"
 #include "terrain/error.h"
 #include "tests/fuzz/fuzz.h"
 

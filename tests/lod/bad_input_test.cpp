@@ -13,9 +13,9 @@
 
 #include "lod/lod.h"
 #include "lod/meters/cracks.h"
-#include "terrain/error.h"
 #include "tests/lod/drawing.h"
 #include "tests/lod/variants.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench::test {
 namespace {
@@ -23,15 +23,6 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLargest = std::numeric_limits<float>::max();
-
-double plan_area(const std::vector<glm::vec3>& corners) {
-  double area = 0;
-  for (std::size_t k = 0; k < corners.size(); k += 3) {
-    const glm::dvec3 u = corners[k + 1] - corners[k], v = corners[k + 2] - corners[k];
-    area += 0.5 * (u.z * v.x - u.x * v.z);
-  }
-  return area;
-}
 
 // The number of corners outside the ground's extent or its range of heights.
 std::size_t outside(const std::vector<glm::vec3>& corners, const Heightfield& field) {
@@ -42,14 +33,10 @@ std::size_t outside(const std::vector<glm::vec3>& corners, const Heightfield& fi
   }));
 }
 
-ExitCode failure_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_FALSE(error.advice().empty()) << error.what();
-    return error.code();
-  }
-  return ExitCode::kGood;
+template <class Call>
+bool refused(const Call& call) {
+  const Failure failure = failure_of(call);
+  return failure.code == ExitCode::kUsage && !failure.advice.empty();
 }
 
 // An ordinary view across the ground, which the tests modify.
@@ -146,14 +133,13 @@ class BadInput : public ::testing::TestWithParam<Variant> {
 
 TEST_P(BadInput, GroundWithoutTrianglesOrWithHolesIsRefused) {
   for (const auto& [width, depth] : {std::pair{1, 1}, {1, 9}, {9, 1}}) {
-    EXPECT_EQ(failure_of([&, w = width, d = depth] { build(flat(w, d)); }), ExitCode::kUsage)
-        << width << " × " << depth;
+    EXPECT_TRUE(refused([&, w = width, d = depth] { build(flat(w, d)); })) << width << " × " << depth;
   }
   Heightfield field = hilly(40, 30);
   field.at(39, 29) = Heightfield::kNoData;
-  EXPECT_EQ(failure_of([&] { build(field); }), ExitCode::kUsage);
-  EXPECT_EQ(failure_of([&] { build(flat(40, 30, Heightfield::kNoData)); }), ExitCode::kUsage);
-  EXPECT_EQ(failure_of([&] { build(fill_no_data(field))->update(across(field)); }), ExitCode::kGood);
+  EXPECT_TRUE(refused([&] { build(field); }));
+  EXPECT_TRUE(refused([&] { build(flat(40, 30, Heightfield::kNoData)); }));
+  EXPECT_NO_THROW(build(fill_no_data(field))->update(across(field)));
 }
 
 TEST_P(BadInput, GroundOfAnySizeIsDrawnOnce) {
@@ -173,8 +159,7 @@ TEST_P(BadInput, GroundOfAnySizeIsDrawnOnce) {
     field.cell_z = 3;
     const std::vector<glm::vec3> corners = corners_of(build(field)->update(from_above(field)));
     EXPECT_EQ(outside(corners, field), 0U) << width << " × " << depth;
-    EXPECT_DOUBLE_EQ(plan_area(corners), static_cast<double>(field.extent_x()) * field.extent_z())
-        << width << " × " << depth;
+    EXPECT_DOUBLE_EQ(plan_area(corners), plan_area(field)) << width << " × " << depth;
   }
 }
 
@@ -206,7 +191,7 @@ TEST_P(BadInput, IllegalViewsAreRefusedAndForgotten) {
     view.eye.x += static_cast<float>(k);
     View bad = view;
     illegal()[k].apply(bad);
-    EXPECT_EQ(failure_of([&] { tried->update(bad); }), ExitCode::kUsage);
+    EXPECT_TRUE(refused([&] { tried->update(bad); }));
     EXPECT_EQ(corners_of(tried->update(view)), corners_of(spared->update(view)));
   }
 }
@@ -225,7 +210,7 @@ TEST_P(BadInput, TheKnobTakesItsRangeAlone) {
     EXPECT_EQ(drawn_with(knob.finest - sign * beyond), finest) << beyond;
     EXPECT_EQ(drawn_with(knob.coarsest + sign * beyond), coarsest) << beyond;
   }
-  EXPECT_EQ(failure_of([&] { lod->tune(kNan); }), ExitCode::kUsage);
+  EXPECT_TRUE(refused([&] { lod->tune(kNan); }));
   EXPECT_EQ(lod->update(across(field)).stats.triangles, coarsest);
 }
 

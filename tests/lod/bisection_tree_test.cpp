@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "lod/mrbsp/surface_height.h"
 #include "tests/terrain/errors.h"
 
 namespace terrabench {

@@ -10,6 +10,7 @@
 #include "terrain/error.h"
 #include "terrain/files.h"
 #include "tests/lod/drawing.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench::test {
 namespace {
@@ -38,14 +39,10 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
 }
 
 void expect_refused(const std::string& text, int line, const std::string& what) {
-  try {
-    parse(text);
-    ADD_FAILURE() << "accepted: " << text;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    EXPECT_THAT(error.what(), testing::HasSubstr("test.toml:" + std::to_string(line))) << text;
-    EXPECT_THAT(error.what(), testing::HasSubstr(what));
-  }
+  const Failure failure = failure_of([&] { parse(text); });
+  EXPECT_EQ(failure.code, ExitCode::kBadInput);
+  EXPECT_THAT(failure.what, testing::HasSubstr("test.toml:" + std::to_string(line))) << text;
+  EXPECT_THAT(failure.what, testing::HasSubstr(what));
 }
 
 TEST(CameraPath, AWalkKeepsPaceAndEyeHeight) {

@@ -2,23 +2,17 @@
 // gaps.
 #include "lod/clipmap/clipmap.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <map>
 #include <random>
-#include <string>
 
-#include "lod/camera/camera_path.h"
-#include "lod/meters/cracks.h"
 #include "lod/meters/screen_error.h"
-#include "terrain/error.h"
 #include "terrain/memory.h"
-#include "tests/lod/drawing.h"
+#include "tests/lod/hybrid_ground.h"
 
 namespace terrabench {
 namespace {
@@ -29,72 +23,20 @@ Heightfield rough(int width, int depth) {
       width, depth, [&](int, int) { return static_cast<float>(random() % 1000) * 0.01F; }, 2, 3);
 }
 
-// An eye low enough to draw the finest level, with a field of view of nearly 180°, so that everything is in
-// view.
+// So wide a view down that everything is in view, from low enough to draw the finest level.
 View everything(const Heightfield& field, float x, float z, float above) {
-  View view;
-  view.eye = {x, 10 + above, z};
-  view.target = {x, 0, z};
-  view.up = {0, 0, -1};
+  View view = test::everything_from(x, z);
+  view.eye.y = 10 + above;
   view.vertical_fov = 3.14F;
-  view.width = view.height = 100;
-  view.near = 0.01F;
   view.far = 100 * (field.extent_x() + field.extent_z()) + 10 * view.eye.y;
   return view;
 }
 
-struct Soup {
-  double area = 0;
-  std::size_t flipped = 0;
-  // Directed edges by the bits of their ends, without pairs of opposite edges.
-  std::map<std::array<std::array<std::uint32_t, 3>, 2>, int> open;
-};
-
-std::array<std::uint32_t, 3> bits(const glm::vec3& p) {
-  return {std::bit_cast<std::uint32_t>(p.x + 0.0F), std::bit_cast<std::uint32_t>(p.y + 0.0F),
-          std::bit_cast<std::uint32_t>(p.z + 0.0F)};
-}
-
-Soup collect(const Frame& frame) {
-  Soup soup;
-  triangles(frame, [&](std::span<const glm::vec3> corners) {
-    for (std::size_t k = 0; k < corners.size(); k += 3) {
-      const glm::dvec3 p = corners[k], q = corners[k + 1], r = corners[k + 2];
-      const double area = 0.5 * ((q.z - p.z) * (r.x - p.x) - (q.x - p.x) * (r.z - p.z));
-      soup.flipped += area <= 0;  // triangles beyond the border are not drawn
-      soup.area += area;
-      for (int e = 0; e < 3; ++e) {
-        const auto a = bits(corners[k + e]), b = bits(corners[k + (e + 1) % 3]);
-        if (const auto other = soup.open.find({b, a}); other != soup.open.end()) {
-          if (--other->second == 0) soup.open.erase(other);
-        } else {
-          ++soup.open[{a, b}];
-        }
-      }
-    }
-  });
-  return soup;
-}
-
-bool on_border(const Heightfield& field, const std::array<std::uint32_t, 3>& point) {
-  const float x = std::bit_cast<float>(point[0]), z = std::bit_cast<float>(point[2]);
-  return x == 0 || z == 0 || x == field.extent_x() || z == field.extent_z();
-}
-
-std::string point(const std::array<std::uint32_t, 3>& p) {
-  return fmt::format("({}, {}, {})", std::bit_cast<float>(p[0]), std::bit_cast<float>(p[1]),
-                     std::bit_cast<float>(p[2]));
-}
-
+// Every place once, by triangles whose edges meet to the bit but for those along the border.
 void expect_closed(const Heightfield& field, const Frame& frame) {
-  const Soup soup = collect(frame);
-  EXPECT_EQ(soup.flipped, 0U);
-  EXPECT_NEAR(soup.area, static_cast<double>(field.extent_x()) * field.extent_z(), 1e-6 * soup.area);
-  for (const auto& [edge, times] : soup.open) {
-    EXPECT_EQ(times, 1);
-    EXPECT_TRUE(on_border(field, edge[0]) && on_border(field, edge[1]))
-        << "from " << point(edge[0]) << " to " << point(edge[1]);
-  }
+  const double area = test::plan_area(field);
+  EXPECT_NEAR(test::plan_area(frame), area, 1e-6 * area);
+  EXPECT_EQ(test::openings_inside(field, frame), 0U);
 }
 
 TEST(ClipmapWindow, CoversItsCellsOnceWithoutOddVerticesAtTheBorder) {
@@ -218,22 +160,6 @@ TEST(Clipmap, UploadsEachNewSampleOnce) {
   }
 }
 
-TEST(Clipmap, HasNoCracksAlongThePaths) {
-  const Heightfield field = test::hilly(403, 344, 1);
-  for (const int window : {31, 127}) {
-    Clipmap lod(heights_in_memory(field), window);
-    for (const CameraPath& path : camera_paths()) {
-      const std::vector<View> all = views(path, field);
-      for (std::size_t k = 0; k < all.size(); k += 20) {
-        const Frame& frame = lod.update(all[k]);
-        const CrackReport cracks = find_cracks(frame, field.width, field.depth, all[k]);
-        ASSERT_TRUE(cracks.tight()) << path.name << ' ' << k << ": " << cracks.gaps << " gaps";
-        ASSERT_EQ(cracks.t_junctions, 0U) << path.name << ' ' << k;
-      }
-    }
-  }
-}
-
 // On a slow flight that climbs through the levels, vertices move gradually; without the transition, they jump
 // when they change level.
 TEST(Clipmap, TransitionsKeepPoppingSmall) {
@@ -347,22 +273,6 @@ TEST(Clipmap, CountsItsHeapBytes) {
   lod->tune(127);
   lod->update(everything(field, 400, 300, 1));
   EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
-}
-
-TEST(Clipmap, TakesFarEyesAndTinyScreens) {
-  const Heightfield field = rough(100, 100);
-  Clipmap lod(heights_in_memory(field), 15);
-  View view;
-  view.width = view.height = 1;
-  view.up = {0.1F, 1, 0.2F};
-  for (const glm::vec3 eye :
-       {glm::vec3(0, -1000, 0), glm::vec3(1e30F, 5, 1e30F), glm::vec3(-1e9F, 1e20F, 50)}) {
-    view.eye = eye;
-    view.target = {0, 1, 0};
-    EXPECT_NO_THROW(lod.update(view));
-  }
-  view.eye.x = NAN;
-  EXPECT_THROW(lod.update(view), Error);
 }
 
 }  // namespace

@@ -127,15 +127,8 @@ TEST(Cracks, FindsGapsBetweenTheSameVertices) {
 TEST(Cracks, FindsAMissingTriangleWhereItIsInView) {
   const Heightfield field = hilly(21, 21);
   Drawing drawing(field);
-  for (int j = 0; j < 20; ++j) {
-    for (int i = 0; i < 20; ++i) {
-      if (i == 10 && j == 10) {
-        drawing.triangle({i, j}, {i, j + 1}, {i + 1, j});
-      } else {
-        drawing.square(i, j, 1);
-      }
-    }
-  }
+  drawing.squares(1, {10, 10});
+  drawing.triangle({10, 10}, {10, 11}, {11, 10});
   const CrackReport report = report_of(drawing, field);
   EXPECT_EQ(report.bare_edges, 3U);
   EXPECT_EQ(report.gaps, 0U);
@@ -148,9 +141,7 @@ TEST(Cracks, FindsAMissingTriangleWhereItIsInView) {
 TEST(Cracks, FindsATriangleDrawnTwice) {
   const Heightfield field = hilly(9, 9);
   Drawing drawing(field);
-  for (int j = 0; j < 8; j += 4) {
-    for (int i = 0; i < 8; i += 4) drawing.square(i, j, 4);
-  }
+  drawing.squares(4);
   EXPECT_TRUE(report_of(drawing, field).tight());
   drawing.triangle({4, 0}, {0, 4}, {4, 4});
   const CrackReport report = report_of(drawing, field);
@@ -158,24 +149,10 @@ TEST(Cracks, FindsATriangleDrawnTwice) {
   EXPECT_EQ(report.gaps, 0U);
 }
 
-TEST(Cracks, FindsATriangleOverOthers) {
-  const Heightfield field = flat(9, 9);
-  Drawing drawing(field);
-  for (int j = 0; j < 8; j += 2) {
-    for (int i = 0; i < 8; i += 2) drawing.square(i, j, 2);
-  }
-  drawing.triangle({2, 2}, {2, 6}, {6, 2});
-  const CrackReport report = report_of(drawing, field);
-  EXPECT_FALSE(report.tight());
-  EXPECT_EQ(report.bare_edges + report.overlaps, 3U);
-}
-
 TEST(Cracks, FindsALayerOverTheWholeGround) {
   const Heightfield field = flat(9, 9);
   Drawing drawing(field);
-  for (int j = 0; j < 8; j += 2) {
-    for (int i = 0; i < 8; i += 2) drawing.square(i, j, 2);
-  }
+  drawing.squares(2);
   EXPECT_TRUE(report_of(drawing, field).tight());
   drawing.square(0, 0, 8);
   const CrackReport report = report_of(drawing, field);
@@ -228,16 +205,9 @@ TEST(Cracks, CountsNoSampleOfASurfaceTwice) {
 TEST(Cracks, FindsACellThatFacesDown) {
   const Heightfield field = hilly(21, 21);
   Drawing drawing(field);
-  for (int j = 0; j < 20; ++j) {
-    for (int i = 0; i < 20; ++i) {
-      if (i == 10 && j == 10) {
-        drawing.triangle({i, j}, {i + 1, j}, {i, j + 1});
-        drawing.triangle({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
-      } else {
-        drawing.square(i, j, 1);
-      }
-    }
-  }
+  drawing.squares(1, {10, 10});
+  drawing.triangle({10, 10}, {11, 10}, {10, 11});
+  drawing.triangle({11, 10}, {11, 11}, {10, 11});
   const CrackReport report = report_of(drawing, field);
   EXPECT_EQ(report.flipped, 2U);
   EXPECT_EQ(report.faults(), 2U);

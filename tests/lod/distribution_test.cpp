@@ -1,11 +1,11 @@
-#include "lod/meters/distribution.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "lod/meters/screen_error.h"
 
 namespace terrabench {
 namespace {

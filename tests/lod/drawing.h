@@ -34,6 +34,20 @@ inline std::vector<glm::vec3> corners_of(const Frame& frame) {
   return corners;
 }
 
+// Of a surface seen from above; what faces down counts negatively.
+inline double plan_area(const std::vector<glm::vec3>& corners) {
+  double area = 0;
+  for (std::size_t k = 0; k < corners.size(); k += 3) {
+    const glm::dvec3 u = corners[k + 1] - corners[k], v = corners[k + 2] - corners[k];
+    area += 0.5 * (u.z * v.x - u.x * v.z);
+  }
+  return area;
+}
+inline double plan_area(const Frame& frame) { return plan_area(corners_of(frame)); }
+inline double plan_area(const Heightfield& field) {
+  return static_cast<double>(field.extent_x()) * field.extent_z();
+}
+
 // Builds a frame over a field triangle by triangle.
 class Drawing {
  public:
@@ -49,6 +63,14 @@ class Drawing {
   void square(int i, int j, int side) {
     triangle({i, j}, {i, j + side}, {i + side, j});
     triangle({i + side, j}, {i, j + side}, {i + side, j + side});
+  }
+  // All squares of this side, row by row, but the one at `without`.
+  void squares(int side, glm::ivec2 without = {-1, -1}) {
+    for (int j = 0; j + side < field_.depth; j += side) {
+      for (int i = 0; i + side < field_.width; i += side) {
+        if (glm::ivec2(i, j) != without) square(i, j, side);
+      }
+    }
   }
   void batch(std::uint16_t level) {
     batches_.push_back({static_cast<std::uint32_t>(indices_.size()), 0, 0, level});

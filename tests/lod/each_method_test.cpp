@@ -5,7 +5,6 @@
 #include <iterator>
 #include <vector>
 
-#include "lod/camera/camera_path.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/screen_error.h"
 #include "terrain/memory.h"
@@ -17,22 +16,12 @@ namespace {
 
 Heightfield ground() { return hilly(202, 173, 0.7F, 1, 5, 5); }
 
-// Every 20th frame of every committed path: near and far ground, small steps and jumps.
-std::vector<View> path_over(const Heightfield& field) {
-  std::vector<View> some;
-  for (const CameraPath& path : camera_paths()) {
-    const std::vector<View> all = views(path, field);
-    for (std::size_t k = 0; k < all.size(); k += 20) some.push_back(all[k]);
-  }
-  return some;
-}
-
 class EachMethod : public ::testing::TestWithParam<Variant> {
  protected:
   std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
   const LodType& type_ = lod(GetParam().method);
   const Heightfield field_ = ground();
-  const std::vector<View> path_ = path_over(field_);
+  const std::vector<View> path_ = path_over(field_, 20);
   Progress silent_;
 };
 
@@ -77,11 +66,11 @@ TEST_P(EachMethod, DrawsNoMoreTrianglesWithACoarserKnob) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EachMethod, ::testing::ValuesIn(variants()), name_of);
 
-// The methods, with default parameters, whose trait is set.
-std::vector<Variant> with_trait(bool LodTraits::*trait) {
+// The methods of some kind, with default parameters.
+std::vector<Variant> methods(bool (*are)(const LodType&)) {
   std::vector<Variant> all;
   for (const LodType& type : lods()) {
-    if (type.traits.*trait) all.push_back({type.name});
+    if (are(type)) all.push_back({type.name});
   }
   return all;
 }
@@ -96,17 +85,10 @@ TEST_P(ConformingMethod, HasNoCracks) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, ConformingMethod, ::testing::ValuesIn(with_trait(&LodTraits::conforming)),
+INSTANTIATE_TEST_SUITE_P(Registry, ConformingMethod, ::testing::ValuesIn(methods([](const LodType& type) {
+                           return type.traits.conforming;
+                         })),
                          name_of);
-
-// The types whose joins can be left out, with the option that leaves them out.
-std::vector<Variant> unstitched() {
-  std::vector<Variant> all;
-  for (const LodType& type : lods()) {
-    if (!type.unstitched.empty()) all.push_back({type.name});
-  }
-  return all;
-}
 
 class UnstitchedMethod : public EachMethod {};
 
@@ -120,7 +102,10 @@ TEST_P(UnstitchedMethod, HasGaps) {
   EXPECT_GT(gaps, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, UnstitchedMethod, ::testing::ValuesIn(unstitched()), name_of);
+INSTANTIATE_TEST_SUITE_P(Registry, UnstitchedMethod, ::testing::ValuesIn(methods([](const LodType& type) {
+                           return !type.unstitched.empty();
+                         })),
+                         name_of);
 
 class BoundingMethod : public EachMethod {};
 
@@ -140,7 +125,9 @@ TEST_P(BoundingMethod, KeepsItsScreenSpaceError) {
   EXPECT_GT(closest, 0.5);  // the bound is not met by drawing everything
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, BoundingMethod, ::testing::ValuesIn(with_trait(&LodTraits::bounds_error)),
+INSTANTIATE_TEST_SUITE_P(Registry, BoundingMethod, ::testing::ValuesIn(methods([](const LodType& type) {
+                           return type.traits.bounds_error;
+                         })),
                          name_of);
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <map>
 #include <vector>
 
-#include "lod/camera/camera_path.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/meters/cracks.h"
 #include "lod/meters/triangle_set.h"
@@ -24,15 +23,6 @@ void edit(Heightfield& field, const SampleRect& rect, float by) {
     for (int i = rect.low.x; i <= rect.high.x; ++i)
       field.at(i, j) += by + 0.3F * static_cast<float>((i * 7 + j * 3) % 5);
   }
-}
-
-std::vector<View> path_over(const Heightfield& field) {
-  std::vector<View> some;
-  for (const CameraPath& path : camera_paths()) {
-    const std::vector<View> all = views(path, field);
-    for (std::size_t k = 0; k < all.size(); k += 60) some.push_back(all[k]);
-  }
-  return some;
 }
 
 // What a renderer holds that follows the uploads alone.
@@ -86,7 +76,7 @@ class EditedMethod : public ::testing::TestWithParam<Variant> {
     lod.edited(rect);
   }
   Heightfield field_ = hilly(202, 173, 0.7F, 1, 5, 5);
-  const std::vector<View> path_ = path_over(field_);
+  const std::vector<View> path_ = path_over(field_, 60);
 };
 
 constexpr SampleRect kInside{{60, 70}, {123, 120}}, kPoint{{101, 86}, {101, 86}},
@@ -202,7 +192,7 @@ TEST(EditedMrbsp, FindsInterpolatedHeightsAndHiddenTrianglesAnew) {
     MrbspOptions options{.three_nearest = nearest, .visibility = !nearest};
     options.visible.cells = 4;
     Mrbsp lod(field, options, silent());
-    const std::vector<View> path = path_over(field);
+    const std::vector<View> path = path_over(field, 60);
     for (const View& view : path) lod.update(view);
     const SampleRect rect{{20, 20}, {40, 40}};
     edit(field, rect, 25);

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "lod/clipmap/clipmap.h"
-#include "lod/clipmap/endless_heights.h"
+#include "lod/clipmap/height_source.h"
 #include "lod/meters/cracks.h"
 #include "terrain/error.h"
 #include "terrain/sources/noise/lattice_noise.h"
+#include "tests/lod/drawing.h"
 
 namespace terrabench {
 namespace {
@@ -146,17 +147,11 @@ TEST(Endless, MovingTheOriginUploadsNothing) {
   constexpr int kFar = (1 << 28) + 11;
   lod.move_origin({kFar, 3});
   lod.update(over(kFar + 100, 50, lod.origin()));
-  const auto corners = [&](const Frame& frame) {
-    std::vector<glm::vec3> all;
-    triangles(frame,
-              [&](std::span<const glm::vec3> some) { all.insert(all.end(), some.begin(), some.end()); });
-    return all;
-  };
-  const std::vector<glm::vec3> before = corners(lod.update(over(kFar + 100, 50, lod.origin())));
+  const std::vector<glm::vec3> before = test::corners_of(lod.update(over(kFar + 100, 50, lod.origin())));
   lod.move_origin({kFar + 96, 40});
   const Frame& frame = lod.update(over(kFar + 100, 50, lod.origin()));
   EXPECT_EQ(frame.stats.bytes_uploaded, 0U);
-  const std::vector<glm::vec3> after = corners(frame);
+  const std::vector<glm::vec3> after = test::corners_of(frame);
   ASSERT_EQ(before.size(), after.size());
   const glm::vec3 by(96 * kGround.cell, 0, 37 * kGround.cell);
   for (std::size_t k = 0; k < after.size(); ++k) ASSERT_EQ(after[k] + by, before[k]);

@@ -78,16 +78,6 @@ TEST_P(GeoMipMapBothWays, KeepsItsPromisesOnAnyFieldFromAnywhere) {
   EXPECT_GT(closest, 0.5);  // the bound is not met by drawing more than necessary
 }
 
-TEST_P(GeoMipMapBothWays, KeepsItsPromisesAlongThePaths) {
-  Heightfield field = hilly(403, 344, 1);
-  field.cell_x = field.cell_z = 5;
-  GeoMipMap lod = make(field, {32, false, GetParam()}, 2);
-  for (const CameraPath& path : camera_paths()) {
-    const std::vector<View> all = views(path, field);
-    for (std::size_t k = 0; k < all.size(); k += 25) expect_promises(lod.update(all[k]), field, all[k], 2);
-  }
-}
-
 // Looking steeply down on a near spike, while the paper's rule uses the distance to the patch's middle.
 TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   Heightfield field = flat(65, 65);
@@ -104,39 +94,10 @@ TEST(GeoMipMap, ThePapersRuleBoundsLess) {
   EXPECT_GT(error(true), 20);
 }
 
-TEST_P(GeoMipMapBothWays, DrawsTheWholeFieldOnceFromAbove) {
-  for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {129, 129}, {403, 344}}) {
-    const Heightfield field = hilly(width, depth, 2);
-    GeoMipMap lod = make(field, {16, false, GetParam()}, 1);
-    double area = 0;
-    triangles(lod.update(from_above(field)), [&](std::span<const glm::vec3> corners) {
-      for (std::size_t k = 0; k < corners.size(); k += 3) {
-        const glm::vec3 u = corners[k + 1] - corners[k], v = corners[k + 2] - corners[k];
-        const double part = 0.5 * (static_cast<double>(u.z) * v.x - static_cast<double>(u.x) * v.z);
-        EXPECT_GT(part, 0);  // counter-clockwise
-        area += part;
-      }
-    });
-    EXPECT_DOUBLE_EQ(area, static_cast<double>(field.extent_x()) * field.extent_z());
-  }
-}
-
 TEST_P(GeoMipMapBothWays, FlatLandIsTwoTrianglesAPatch) {
   const Heightfield field = flat(200, 129, 700);
   GeoMipMap lod = make(field, {64, false, GetParam()}, 0.05);
   EXPECT_EQ(lod.update(from_above(field)).stats.triangles, 2U * 4 * 2);
-}
-
-TEST_P(GeoMipMapBothWays, LargerErrorsTakeFewerTriangles) {
-  const Heightfield field = hilly(403, 344, 0.3F);
-  const View view = views(camera_path("fly"), field)[60];
-  std::size_t last = std::size_t{2} * 402 * 343 + 1;
-  for (const double pixels : {0.5, 1.0, 2.0, 4.0, 8.0}) {
-    const std::size_t drawn = make(field, {16, false, GetParam()}, pixels).update(view).stats.triangles;
-    EXPECT_LT(drawn, last);
-    last = drawn;
-  }
-  EXPECT_GT(last, 0U);
 }
 
 TEST_P(GeoMipMapBothWays, UploadsOnceAndCountsChanges) {
@@ -153,48 +114,30 @@ TEST_P(GeoMipMapBothWays, UploadsOnceAndCountsChanges) {
   EXPECT_EQ(later.stats.bytes_uploaded, a_frame(later));
 }
 
-TEST_P(GeoMipMapBothWays, CountsItsHeapBytesAndTakesNoneAFrame) {
+TEST_P(GeoMipMapBothWays, TakesNoHeapBytesAFrame) {
   const Heightfield field = hilly(300, 257, 1);
-  Progress silent;
-  const auto built = [&] {
-    return std::make_unique<GeoMipMap>(field, GeoMipMap::Options{16, false, GetParam()}, silent);
-  };
-  built();  // creates the thread pool, which stays
-  const HeapScope heap;
-  auto lod = built();
-  EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
+  GeoMipMap lod = make(field, {16, false, GetParam()}, 1);
   const std::vector<View> all = views(camera_path("fly"), field);
-  lod->update(from_above(field));
+  lod.update(from_above(field));
   const std::int64_t live = HeapCounter::live();
   HeapCounter::reset_peak();
-  for (const View& view : all) lod->update(view);
+  for (const View& view : all) lod.update(view);
   EXPECT_EQ(HeapCounter::peak(), live);
 }
 
-TEST_P(GeoMipMapBothWays, EveryViewIsLegal) {
+TEST_P(GeoMipMapBothWays, DrawsAtLeastTwoTrianglesAPatchAndNothingOutOfView) {
   const Heightfield field = hilly(150, 90, 1);
   GeoMipMap lod = make(field, {16, false, GetParam()}, 2);
   View view = from_above(field);
-  view.width = view.height = 1;
-  expect_promises(lod.update(view), field, view, 2);
-  view = from_above(field);
   view.eye.y = 1e6F;  // the field covers less than a pixel
   view.far = 1e7F;
   EXPECT_EQ(lod.update(view).stats.triangles, 2U * 10 * 6);
-  view.eye = {1e30F, 1e30F, -1e30F};
-  view.target = {0, 0, 0};
-  EXPECT_EQ(lod.update(view).stats.triangles, 0U);  // behind the far plane
+  view.far = 1e5F;
+  EXPECT_EQ(lod.update(view).stats.triangles, 0U);
   view = View{};
-  view.eye = {75, -40, 45};  // under ground, looking up
-  view.target = {75, 0, 46};
-  expect_promises(lod.update(view), field, view, 2);
+  view.eye = {75, -40, 45};  // under ground, looking down
   view.target = {75, -80, 46};
   EXPECT_EQ(lod.update(view).stats.triangles, 0U);
-  view.vertical_fov = 3.1F;  // nearly half of all directions
-  view.target = {75, 0, 46};
-  expect_promises(lod.update(view), field, view, 2);
-  view.eye.x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(lod.update(view), Error);
 }
 
 TEST(GeoMipMap, RefusesPatchesOfOtherSizes) {
@@ -205,7 +148,6 @@ TEST(GeoMipMap, RefusesPatchesOfOtherSizes) {
   EXPECT_NO_THROW(type.build(field, parameters, silent));
   parameters.set("patch", std::int64_t{48});
   EXPECT_THROW(type.build(field, parameters, silent), Error);
-  EXPECT_THROW(type.build(flat(1, 5), Parameters(type.parameters), silent), Error);
 }
 
 // From far away each patch has two triangles, so the count gives the number of patches.

@@ -9,9 +9,9 @@
 
 #include "lod/camera/camera_path.h"
 #include "lod/hybrid/height_chunks.h"
-#include "terrain/error.h"
 #include "terrain/memory.h"
 #include "tests/lod/hybrid_ground.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench::test {
 namespace {
@@ -168,39 +168,31 @@ TEST_F(HybridChunks, MayEndWhileChunksAreBeingBuilt) {
   }
 }
 
-ExitCode failure_of(const LodGround& ground, const HybridOptions& options) {
-  try {
-    Hybrid lod(ground, options);
-    lod.update(standing(ground.heights, 40, 40, 0));
-  } catch (const Error& error) {
-    EXPECT_FALSE(error.advice().empty());
-    return error.code();
-  }
-  return ExitCode::kGood;
+Failure failure_of(const LodGround& ground, const HybridOptions& options = {}) {
+  return terrabench::failure_of([&] { Hybrid(ground, options).update(standing(ground.heights, 40, 40, 0)); });
 }
 
 TEST_F(HybridChunks, WhatDoesNotFitIsRefused) {
-  EXPECT_EQ(failure_of({field_, &meso_}, {}), ExitCode::kGood);
-  EXPECT_EQ(failure_of({flat(1, 1), &meso_}, {}), ExitCode::kUsage);
+  EXPECT_EQ(failure_of({flat(1, 1), &meso_}).code, ExitCode::kUsage);
   for (const HybridOptions& options : {HybridOptions{.radius = -1}, HybridOptions{.radius = 17},
                                        HybridOptions{.band = 0}, HybridOptions{.band = 17}}) {
-    EXPECT_EQ(failure_of({field_, &meso_}, options), ExitCode::kUsage);
+    EXPECT_EQ(failure_of({field_, &meso_}, options).code, ExitCode::kUsage);
   }
   for (const MesoOptions& options :
        {MesoOptions{.cell = 0.7F}, MesoOptions{.low = {0.5F, 0}}, MesoOptions{.low = {-16, 0}},
         MesoOptions{.low = {96, 0}}, MesoOptions{.cells = 128}, MesoOptions{.cell = 1.0F / 32}}) {
     const MesoGround meso(options);
-    EXPECT_EQ(failure_of({field_, &meso}, {}), ExitCode::kUsage) << options.cell << " " << options.low.x;
+    EXPECT_EQ(failure_of({field_, &meso}).code, ExitCode::kUsage) << options.cell << " " << options.low.x;
   }
   Heightfield oblong = field_;
   oblong.cell_z = 1.5F;
-  EXPECT_EQ(failure_of({oblong, &meso_}, {}), ExitCode::kUsage);
+  EXPECT_EQ(failure_of({oblong, &meso_}).code, ExitCode::kUsage);
 }
 
 // A near surface that does not cover its bounds cannot meet the clipmap.
 TEST_F(HybridChunks, ANearSurfaceWithOpeningsAtTheRimIsRefused) {
   const MesoGround bottomless({.relief = 30, .floor = false});
-  EXPECT_EQ(failure_of({field_, &bottomless}, {}), ExitCode::kBadInput);
+  EXPECT_EQ(failure_of({field_, &bottomless}).code, ExitCode::kBadInput);
   struct Nothing final : MeshChunks {
     Bounds bounds() const override { return {{0, 0, 0}, {96, 1, 96}}; }
     float cell() const override { return 1; }
@@ -209,7 +201,7 @@ TEST_F(HybridChunks, ANearSurfaceWithOpeningsAtTheRimIsRefused) {
     TriangleMesh chunk(glm::ivec2, int) const override { return {}; }
     std::uint64_t version(glm::ivec2) const override { return 0; }
   } const nothing;
-  EXPECT_EQ(failure_of({field_, &nothing}, {}), ExitCode::kBadInput);
+  EXPECT_EQ(failure_of({field_, &nothing}).code, ExitCode::kBadInput);
 }
 
 TEST_F(HybridChunks, ASmallWindowHoldsFewer) {

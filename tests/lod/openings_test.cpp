@@ -22,14 +22,9 @@ View walker(const Heightfield& field, float above = 3) {
   return view;
 }
 
-// All squares of the field but one.
 Drawing squares(const Heightfield& field, glm::ivec2 without = {-1, -1}) {
   Drawing drawing(field);
-  for (int j = 0; j + 1 < field.depth; ++j) {
-    for (int i = 0; i + 1 < field.width; ++i) {
-      if (glm::ivec2(i, j) != without) drawing.square(i, j, 1);
-    }
-  }
+  drawing.squares(1, without);
   return drawing;
 }
 

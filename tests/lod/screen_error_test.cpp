@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/meters/drawn_surface.h"
 #include "tests/lod/drawing.h"
 
 namespace terrabench::test {
@@ -128,16 +129,6 @@ TEST(SeenSamples, NothingIsHiddenFromAbove) {
   }
 }
 
-// On the two triangles of the cell, which split from low x, high z.
-float height_on_triangles(const Heightfield& field, float x, float z) {
-  const int i = std::min(static_cast<int>(x), field.width - 2),
-            j = std::min(static_cast<int>(z), field.depth - 2);
-  const float u = x - static_cast<float>(i), v = z - static_cast<float>(j);
-  const float east = field.at(i + 1, j), south = field.at(i, j + 1);
-  if (u + v <= 1) return field.at(i, j) * (1 - u - v) + east * u + south * v;
-  return field.at(i + 1, j + 1) * (u + v - 1) + east * (1 - v) + south * (1 - u);
-}
-
 // Compared with rays: a sample whose ray stays well above the ground is visible, and one whose ray runs deep
 // underground is hidden.
 TEST(SeenSamples, AgreesWithRaysOverTheGround) {
@@ -155,7 +146,7 @@ TEST(SeenSamples, AgreesWithRaysOverTheGround) {
       float clearance = 1e9F, rise = 1e9F;
       for (float t = 0.1F; t < length; t += 0.1F) {
         const glm::vec3 q = p + (view.eye - p) * (t / length);
-        const float above = q.y - height_on_triangles(field, q.x, q.z);
+        const float above = q.y - height_on_cells(field, q.x, q.z);
         clearance = std::min(clearance, above);
         rise = std::min(rise, above / t);
       }
@@ -177,9 +168,7 @@ TEST(Popping, IsTheMotionSeenFromTheLaterView) {
   field.at(8, 8) = 2;
   Drawing coarse(field), fine(field);
   coarse.square(0, 0, 16);
-  for (int j = 0; j < 16; j += 8) {
-    for (int i = 0; i < 16; i += 8) fine.square(i, j, 8);
-  }
+  fine.squares(8);
   const SurfaceRaster before(coarse.frame(), 17, 17), after(fine.frame(), 17, 17);
   const View view = level_view(field);
   const SeenSamples seen(field, view);
@@ -193,9 +182,7 @@ TEST(Popping, IsTheMotionSeenFromTheLaterView) {
 TEST(ScreenError, IsTheSameForAnyNumberOfThreads) {
   const Heightfield field = hilly(300, 200, 3);
   Drawing drawing(field);
-  for (int j = 0; j + 8 < 200; j += 8) {
-    for (int i = 0; i + 8 < 300; i += 8) drawing.square(i, j, 8);
-  }
+  drawing.squares(8);
   View view = level_view(field);
   view.eye.y = view.target.y = 30;
   const auto measured = [&] {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lod/meters/distribution.h"
+#include "lod/meters/screen_error.h"
 #include "tests/lod/drawing.h"
 
 namespace terrabench::test {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lod/camera/camera_path.h"
 #include "lod/lod.h"
 
 namespace terrabench::test {
@@ -49,6 +50,16 @@ inline std::unique_ptr<Lod> build(const Variant& variant, const Heightfield& fie
   Parameters parameters(type.parameters);
   if (!variant.parameter.empty()) parameters.set(variant.parameter, variant.value);
   return type.build(field, parameters, progress);
+}
+
+// Every so many-th frame of every committed path: near and far ground, small steps and jumps.
+inline std::vector<View> path_over(const Heightfield& field, std::size_t every) {
+  std::vector<View> some;
+  for (const CameraPath& path : camera_paths()) {
+    const std::vector<View> all = views(path, field);
+    for (std::size_t k = 0; k < all.size(); k += every) some.push_back(all[k]);
+  }
+  return some;
 }
 
 }  // namespace terrabench::test

@@ -1,7 +1,7 @@
 // Change tables against the sets that they come from, and flags against both.
 #include <gtest/gtest.h>
 
-#include "lod/mrbsp/visibility/flags.h"
+#include "lod/mrbsp/visibility/change_table.h"
 #include "tests/lod/visible_ground.h"
 #include "tests/terrain/errors.h"
 

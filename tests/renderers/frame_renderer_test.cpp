@@ -10,9 +10,10 @@
 #include <random>
 
 #include "lod/clipmap/clipmap.h"
-#include "lod/clipmap/endless_heights.h"
+#include "lod/clipmap/height_source.h"
 #include "lod/lod.h"
 #include "terrain/metrics/image_error.h"
+#include "tests/lod/drawing.h"
 #include "tests/lod/variants.h"
 #include "tests/terrain/ground.h"
 
@@ -68,20 +69,25 @@ std::size_t bytes_named(const Frame& frame, const ClipLevel& level) {
   return bytes;
 }
 
+FrameStyle style_of_waves() {
+  FrameStyle style;
+  style.lowest = -20;
+  style.highest = 20;
+  return style;
+}
+
 class FrameRendererTest : public ::testing::TestWithParam<test::Variant> {
  protected:
   std::unique_ptr<Lod> build() { return test::build(GetParam(), field_, silent_); }
   std::unique_ptr<GlContext> context_ = open_context("osmesa", 16, 16);
   Heightfield field_ = test::waves(150, 120, 20, 2, 3);
   Progress silent_;
+  FrameStyle style_ = style_of_waves();
 };
 
 // Compares random pixels.
 void expect_shown(FrameRenderer& renderer, const Frame& frame, const View& view, std::mt19937& random) {
-  std::vector<glm::vec3> corners;
-  triangles(frame, [&](std::span<const glm::vec3> some) {
-    corners.insert(corners.end(), some.begin(), some.end());
-  });
+  const std::vector<glm::vec3> corners = test::corners_of(frame);
   const std::vector<std::uint32_t> shown = renderer.triangle_numbers(frame, view);
   const glm::mat4 to_clip = world_to_clip(view);
   int agree = 0, asked = 0;
@@ -125,37 +131,12 @@ TEST(EndlessFrames, ShowTheirTrianglesFarFromSample0) {
   }
 }
 
-TEST_P(FrameRendererTest, DirtyRangesAreEnough) {
-  const std::unique_ptr<Lod> lod = build();
-  FrameRenderer kept(*context_);
-  FrameStyle style;
-  style.lowest = -20;
-  style.highest = 20;
-  for (int step = 0; step <= 10; ++step) {
-    const View view = walk(field_, static_cast<float>(step) / 10);
-    const Frame& frame = lod->update(view);
-    if (step % 2 == 0) {
-      kept.draw(frame, view, style);
-    } else {
-      kept.upload(frame);
-      kept.draw_uploaded(view, style);
-    }
-    const Image incremental = kept.image();
-    FrameRenderer fresh(*context_);
-    fresh.draw(frame, view, style);
-    ASSERT_EQ(incremental.rgb, fresh.image().rgb) << step;
-  }
-}
-
 // Halfway the knob is set to the finest value, so that buffers must grow.
-TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
+TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSaysAndTheyAreEnough) {
   const Knob& knob = lod(GetParam().method).knob;
   const std::unique_ptr<Lod> lod = build();
   lod->tune(knob.coarsest);
   FrameRenderer renderer(*context_);
-  FrameStyle style;
-  style.lowest = -20;
-  style.highest = 20;
   std::size_t before = 0;
   for (int step = 0; step <= 8; ++step) {
     if (step == 4) lod->tune(knob.finest);
@@ -163,7 +144,8 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
     const Frame& frame = lod->update(view);
     EXPECT_EQ(frame.stats.bytes_commands,
               kBytesPerBatch * frame.batches.size() + kBytesPerClipLevel * frame.clip_levels.size());
-    renderer.draw(frame, view, style);
+    renderer.upload(frame);
+    renderer.draw_uploaded(view, style_);
     // The first frame is sent whole; a clipmap's arrays are one row and one column larger than the windows,
     // the only part that its dirty ranges contain.
     std::size_t expected = frame.stats.bytes_sent();
@@ -174,7 +156,7 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
     before = renderer.bytes_uploaded() - renderer.bytes_resent();
     FrameRenderer fresh(*context_);
     const Image kept = renderer.image();
-    fresh.draw(frame, view, style);
+    fresh.draw(frame, view, style_);
     ASSERT_EQ(kept.rgb, fresh.image().rgb) << step;
   }
 }
@@ -182,15 +164,12 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSays) {
 TEST_P(FrameRendererTest, DrawsWires) {
   const std::unique_ptr<Lod> lod = build();
   FrameRenderer renderer(*context_);
-  FrameStyle style;
-  style.lowest = -20;
-  style.highest = 20;
   const View view = walk(field_, 0.4F);
   const Frame& frame = lod->update(view);
-  renderer.draw(frame, view, style);
+  renderer.draw(frame, view, style_);
   const Image plain = renderer.image();
-  style.wire_width = 1;
-  renderer.draw(frame, view, style);
+  style_.wire_width = 1;
+  renderer.draw(frame, view, style_);
   const Image wired = renderer.image();
   std::size_t darker = 0;
   for (std::size_t k = 0; k < plain.rgb.size(); k += 3) darker += wired.rgb[k] + 20 < plain.rgb[k];
@@ -198,9 +177,6 @@ TEST_P(FrameRendererTest, DrawsWires) {
 }
 
 TEST_P(FrameRendererTest, ShowsWhatFullDetailShowsWhereTheKnobIsFinest) {
-  FrameStyle style;
-  style.lowest = -20;
-  style.highest = 20;
   const std::unique_ptr<Lod> finest = build();
   finest->tune(lod(GetParam().method).knob.finest);
   const std::unique_ptr<Lod> full = lod("brute_force").build(field_, {}, silent_);
@@ -209,9 +185,9 @@ TEST_P(FrameRendererTest, ShowsWhatFullDetailShowsWhereTheKnobIsFinest) {
     View view = walk(field_, t);
     view.width = 320;
     view.height = 240;
-    renderer.draw(finest->update(view), view, style);
+    renderer.draw(finest->update(view), view, style_);
     const Image image = renderer.image();
-    reference.draw(full->update(view), view, style);
+    reference.draw(full->update(view), view, style_);
     EXPECT_GT(ssim(image, reference.image()), 0.9) << t;
     EXPECT_GT(psnr(image, reference.image()), 30) << t;
   }
@@ -224,14 +200,13 @@ TEST_P(FrameRendererTest, RidgesHideTheSlopeBehind) {
   for (float& height : steep.heights) height += static_cast<float>(random() % 400) * 0.01F;
   const std::unique_ptr<Lod> lod = test::build(GetParam(), steep, silent_);
   FrameRenderer renderer(*context_);
-  FrameStyle style;
-  style.lowest = -1000;  // one colour for all heights
-  style.highest = -999;
-  style.sun = {0, 1, 0};
+  style_.lowest = -1000;  // one colour for all heights
+  style_.highest = -999;
+  style_.sun = {0, 1, 0};
   View view = walk(steep, 0.3F);
   view.width = 640;
   view.height = 480;
-  renderer.draw(lod->update(view), view, style);
+  renderer.draw(lod->update(view), view, style_);
   const Image image = renderer.image();
   // The underside is grey, the lowest and highest colours are not.
   std::size_t grey = 0;
@@ -250,9 +225,7 @@ TEST(FrameRenderer, MorphsVertices) {
   Progress silent;
   const std::unique_ptr<Lod> lod = test::build({"geomipmap", "morph", true}, field, silent);
   lod->tune(20);
-  FrameStyle style;
-  style.lowest = -20;
-  style.highest = 20;
+  const FrameStyle style = style_of_waves();
   for (const float t : {0.0F, 0.3F, 0.8F}) {
     const View view = walk(field, t);
     Frame frame = lod->update(view);

@@ -9,8 +9,8 @@
 
 #include "renderers/grass/growth.h"
 #include "renderers/grass/texture.h"
-#include "terrain/error.h"
 #include "tests/renderers/meadow.h"
+#include "tests/terrain/errors.h"
 
 namespace terrabench {
 namespace {
@@ -136,14 +136,10 @@ TEST(GrassPlan, LeavesOutWhatIsNoTriangle) {
 
 TEST(GrassPlan, RefusesWhatCannotGrow) {
   TriangleMesh mesh = meadow(3);
-  const auto refused = [&](const GrassGrowth& growth) -> std::string {
-    try {
-      plan_grass(grass_ground(mesh), growth);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kUsage);
-      return error.what();
-    }
-    return "nothing was thrown";
+  const auto refused = [&](const GrassGrowth& growth) {
+    const Failure failure = failure_of([&] { plan_grass(grass_ground(mesh), growth); });
+    EXPECT_EQ(failure.code, ExitCode::kUsage);
+    return failure.what;
   };
   EXPECT_THAT(refused({.strands = -1}), HasSubstr("-1"));
   EXPECT_THAT(refused({.strands = GrassGrowth::kMostStrands + 1}), HasSubstr("strands"));

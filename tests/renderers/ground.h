@@ -30,6 +30,13 @@ inline TriangleMesh ground(int n, float size, const std::function<float(float, f
   return mesh;
 }
 
+inline void append(TriangleMesh& to, const TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(to.positions.size());
+  to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  to.normals.insert(to.normals.end(), mesh.normals.begin(), mesh.normals.end());
+  for (const std::uint32_t index : mesh.indices) to.indices.push_back(first + index);
+}
+
 // Octaves of rotated waves, from 0 to about 1000 m for size 10 km.
 inline float hills(float x, float z) {
   float height = 0, amplitude = 260, frequency = 6.0e-4F;

@@ -32,21 +32,15 @@ Steps steps(const Texels& map, int channel, bool along_x) {
 }
 
 TEST(LandscapeTextures, WrapAround) {
-  for (int material = 0; material < 5; ++material) {
-    const Texels map = material_map(material, 128, 3);
+  std::vector<Texels> maps{wave_map(128, 3)};
+  for (int material = 0; material < 5; ++material) maps.push_back(material_map(material, 128, 3));
+  for (std::size_t k = 0; k < maps.size(); ++k) {
     for (int channel = 0; channel < 4; ++channel) {
       for (const bool along_x : {true, false}) {
-        const Steps found = steps(map, channel, along_x);
-        EXPECT_LE(found.seam, found.inside) << material << ' ' << channel;
-        EXPECT_GT(found.inside, 0.01);
+        const Steps found = steps(maps[k], channel, along_x);
+        EXPECT_LE(found.seam, found.inside) << k << ' ' << channel;
+        EXPECT_GT(found.inside, k > 0 ? 0.01 : 0);
       }
-    }
-  }
-  const Texels waves = wave_map(128, 3);
-  for (int channel = 0; channel < 4; ++channel) {
-    for (const bool along_x : {true, false}) {
-      const Steps found = steps(waves, channel, along_x);
-      EXPECT_LE(found.seam, found.inside) << channel;
     }
   }
 }

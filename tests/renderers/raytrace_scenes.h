@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "renderers/raytrace/raytraced_picture.h"
+#include "tests/renderers/ground.h"
 
 namespace terrabench::testing {
 
@@ -15,13 +16,6 @@ inline TriangleMesh quad(glm::vec3 corner, glm::vec3 a, glm::vec3 b) {
   mesh.positions = {corner, corner + a, corner + a + b, corner + b};
   mesh.indices = {0, 1, 2, 0, 2, 3};
   return mesh;
-}
-
-inline void append(TriangleMesh& to, const TriangleMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(to.positions.size());
-  to.positions.insert(to.positions.end(), mesh.positions.begin(), mesh.positions.end());
-  to.normals.insert(to.normals.end(), mesh.normals.begin(), mesh.normals.end());
-  for (const std::uint32_t index : mesh.indices) to.indices.push_back(first + index);
 }
 
 inline TriangleMesh box(glm::vec3 low, glm::vec3 high) {

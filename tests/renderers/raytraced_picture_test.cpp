@@ -1,5 +1,5 @@
 // What a ray-traced picture promises whatever it shows, and how it refuses unusable input.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <tbb/global_control.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -164,29 +164,27 @@ TEST(RaytracedPicture, RefusesUnusableScenes) {
     change(scene, mesh);
     return refused(scene).what;
   };
+  const auto expect = [&](const auto& change, const char* what) {
+    EXPECT_THAT(with(change), ::testing::HasSubstr(what));
+  };
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   using Scene = RayScene&;
   using Mesh = TriangleMesh&;
-  EXPECT_NE(with([&](Scene, Mesh m) { m.positions[5].y = kNan; }).find("position 5"), std::string::npos);
-  EXPECT_NE(with([&](Scene, Mesh m) { m.normals[7].y = kNan; }).find("normal 7"), std::string::npos);
-  EXPECT_NE(with([&](Scene, Mesh m) { m.normals.pop_back(); }).find("normals for"), std::string::npos);
-  EXPECT_NE(with([&](Scene, Mesh m) { m.indices[10] = 99999; }).find("triangle 3"), std::string::npos);
-  EXPECT_NE(with([&](Scene, Mesh m) { m.indices.pop_back(); }).find("multiple of 3"), std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.instances[0].mesh = 4; }).find("does not exist"), std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.instances[0].to_world[1][1] = 0; }).find("invertible"),
-            std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.instances[0].to_world[3][1] = kNan; }).find("finite"),
-            std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.instances[0].to_world[0][3] = 1; }).find("affine"),
-            std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.meshes[0].mesh = nullptr; }).find("no mesh"), std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.meshes[0].material.albedo.x = 2; }).find("material"),
-            std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.light.sun = glm::vec3(0); }).find("sun"), std::string::npos);
-  EXPECT_NE(with([&](Scene s, Mesh) { s.light.zenith.y = -1; }).find("colour"), std::string::npos);
+  expect([&](Scene, Mesh m) { m.positions[5].y = kNan; }, "position 5");
+  expect([&](Scene, Mesh m) { m.normals[7].y = kNan; }, "normal 7");
+  expect([&](Scene, Mesh m) { m.normals.pop_back(); }, "normals for");
+  expect([&](Scene, Mesh m) { m.indices[10] = 99999; }, "triangle 3");
+  expect([&](Scene, Mesh m) { m.indices.pop_back(); }, "multiple of 3");
+  expect([&](Scene s, Mesh) { s.instances[0].mesh = 4; }, "does not exist");
+  expect([&](Scene s, Mesh) { s.instances[0].to_world[1][1] = 0; }, "invertible");
+  expect([&](Scene s, Mesh) { s.instances[0].to_world[3][1] = kNan; }, "finite");
+  expect([&](Scene s, Mesh) { s.instances[0].to_world[0][3] = 1; }, "affine");
+  expect([&](Scene s, Mesh) { s.meshes[0].mesh = nullptr; }, "no mesh");
+  expect([&](Scene s, Mesh) { s.meshes[0].material.albedo.x = 2; }, "material");
+  expect([&](Scene s, Mesh) { s.light.sun = glm::vec3(0); }, "sun");
+  expect([&](Scene s, Mesh) { s.light.zenith.y = -1; }, "colour");
   const auto broken = [](const SurfacePoint&) { return RayMaterial{.albedo = glm::vec3(kNan)}; };
-  EXPECT_NE(with([&](Scene s, Mesh) { s.meshes[0].material_at = broken; }).find("not finite"),
-            std::string::npos);
+  expect([&](Scene s, Mesh) { s.meshes[0].material_at = broken; }, "not finite");
 }
 
 TEST(RaytracedPicture, RefusesUnusableSettings) {

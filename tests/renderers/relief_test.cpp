@@ -1,5 +1,3 @@
-#include "renderers/relief.h"
-
 #include <gmock/gmock.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "renderers/ramp.h"
+#include "renderers/scene.h"
 #include "renderers/target.h"
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -81,15 +80,6 @@ TEST(Ramp, RisesInLightnessAllTheWay) {
   EXPECT_EQ(ramp_color(5), ramp_color(1));
 }
 
-TEST_F(Relief, OfNothingIsBackground) {
-  const Image image = draw({}, overview({{0, 0, 0}, {1, 1, 1}}, 30, 20), {.background = {12, 34, 56}});
-  ASSERT_EQ(image.width, 30);
-  ASSERT_EQ(image.height, 20);
-  for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 30; ++x) ASSERT_EQ(image.pixel(x, y), (Rgb{12, 34, 56}));
-  }
-}
-
 TEST_F(Relief, GivesLevelGroundTheRampsColor) {
   for (const float height : {0.0F, 25.0F, 50.0F, 100.0F}) {
     const TriangleMesh mesh = ground(4, 100, [&](float, float) { return height; });
@@ -144,10 +134,7 @@ TEST_F(Relief, LetsTheNearerGroundHideTheFarther) {
   // Two levels one metre apart, seen from 30 km in a view whose own depth range would clip both.
   const auto level = [](float height) { return ground(2, 10000, [&](float, float) { return height; }); };
   const auto join = [](TriangleMesh a, const TriangleMesh& b) {
-    const auto shift = static_cast<std::uint32_t>(a.positions.size());
-    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-    a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
-    for (const std::uint32_t i : b.indices) a.indices.push_back(i + shift);
+    testing::append(a, b);
     return a;
   };
   View view = from_above(10000, 30000);
@@ -160,17 +147,6 @@ TEST_F(Relief, LetsTheNearerGroundHideTheFarther) {
       for (int x = 0; x < 64; x += 7) expect_close(image.pixel(x, y), to_bytes(ramp_color(1)), 1);
     }
   }
-}
-
-TEST_F(Relief, IsSeenFromInsideTheTerrainToo) {
-  const TriangleMesh mesh = ground(64, 10000, hills);
-  View view;
-  view.width = view.height = 64;
-  view.eye = {5000, hills(5000, 5000) + 30, 5000};
-  view.target = {0, 400, 0};
-  const Image image = draw(mesh, view, {.lowest = 0, .highest = 600});
-  EXPECT_EQ(image.pixel(32, 0), (Rgb{255, 255, 255}));
-  EXPECT_NE(image.pixel(32, 63), (Rgb{255, 255, 255}));
 }
 
 TEST_F(Relief, DrawsEdgesWhereTheyAre) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "renderers/relief.h"
 #include "tests/renderers/ground.h"
 
 namespace terrabench {
@@ -33,6 +32,15 @@ bool dark(const Rgb& color) { return color[0] < 140; }
 
 TriangleMesh level(float height, int n = 4) {
   return ground(n, 100, [height](float, float) { return height; });
+}
+
+template <class Inked>
+int count_pixels(const Image& image, const Inked& inked) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) count += inked(image.pixel(x, y)) ? 1 : 0;
+  }
+  return count;
 }
 
 class SceneTest : public ::testing::Test {
@@ -72,14 +80,7 @@ TEST_F(SceneTest, WiresBehindTheSurfaceAreHidden) {
   Scene scene;
   scene.meshes = {wired(below), wired(above)};
   scene.meshes[1].wire_width = 0;
-  const auto ink = [&] {
-    const Image image = draw(scene);
-    int count = 0;
-    for (int y = 0; y < 100; ++y) {
-      for (int x = 0; x < 100; ++x) count += image.pixel(x, y) != kWhite ? 1 : 0;
-    }
-    return count;
-  };
+  const auto ink = [&] { return count_pixels(draw(scene), [](const Rgb& c) { return c != kWhite; }); };
   EXPECT_EQ(ink(), 0);
   std::swap(scene.meshes[0], scene.meshes[1]);
   EXPECT_EQ(ink(), 0) << "in either order";
@@ -113,14 +114,7 @@ TEST_F(SceneTest, OutlinesAreDrawnWhereNoWireRuns) {
   view.up = {0, 1, 0};
   view.eye = {-10000, 20, 50};
   view.target = {0, 20, 50};
-  const auto ink = [&] {
-    const Image image = draw(scene, view);
-    int count = 0;
-    for (int y = 0; y < 100; ++y) {
-      for (int x = 0; x < 100; ++x) count += dark(image.pixel(x, y)) ? 1 : 0;
-    }
-    return count;
-  };
+  const auto ink = [&] { return count_pixels(draw(scene, view), dark); };
   EXPECT_GT(ink(), 150);
   view.eye = {50, 10000, 50};  // from above both triangles face the eye, so the ridge is not an outline
   view.target = {50, 0, 50};
@@ -223,15 +217,6 @@ TEST_F(SceneTest, OfNothingIsBackground) {
   scene.meshes = {wired(none)};
   EXPECT_EQ(draw(scene).pixel(50, 50), (Rgb{1, 2, 3}));
   EXPECT_EQ(bounds_of(scene).high, glm::vec3(0));
-}
-
-TEST_F(SceneTest, OfOneLitMeshIsTheRelief) {
-  const TriangleMesh mesh = ground(32, 10000, hills);
-  const View view = overview(bounds_of(mesh), 120, 80);
-  Scene scene;
-  scene.highest = 600;
-  scene.meshes.emplace_back().mesh = &mesh;
-  EXPECT_EQ(draw(scene, view).rgb, render_relief(*context_, mesh, view, {.highest = 600}).rgb);
 }
 
 TEST(QuadWires, LeaveOutTheDiagonalsOfLevelSteepAndUprightCells) {

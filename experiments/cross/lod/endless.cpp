@@ -12,7 +12,7 @@
 #include "experiments/figures/maps.h"
 #include "experiments/stopwatch.h"
 #include "lod/clipmap/clipmap.h"
-#include "lod/clipmap/endless_heights.h"
+#include "lod/clipmap/height_source.h"
 #include "lod/meters/cracks.h"
 #include "renderers/frame_renderer.h"
 #include "results/store/format.h"

@@ -14,7 +14,7 @@
 #include "experiments/cross/lod/knob_search.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
-#include "lod/meters/distribution.h"
+#include "lod/meters/screen_error.h"
 #include "lod/meters/seen_samples.h"
 #include "terrain/image.h"
 #include "terrain/source.h"

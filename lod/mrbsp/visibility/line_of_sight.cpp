@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "lod/mrbsp/surface_height.h"
+#include "lod/mrbsp/bisection_tree.h"
 
 namespace terrabench::mrbsp::visibility {
 

@@ -29,7 +29,6 @@ void check(const Options& options) {
     throw usage_error(fmt::format("{} must be from {} to {}, got {}", name, low, high, value), name, "");
   };
   check_range("cells", options.cells, 1, 1024);
-  check_range("eyes", options.eyes, 1, 64);
   check_range("coarseness", options.coarseness, 0, BisectionTree::kDeepest);
   check_range("eye_height", options.eye_height, 0.0F, 1e6F);
 }
@@ -41,7 +40,7 @@ Sampling sampling_of(const Options& options) {
     case Mode::kFacing:
       return {.facing = true};
     case Mode::kInterior:
-      return {.eyes = Eyes::kInside, .facing = true, .per_side = options.eyes};
+      return {.eyes = Eyes::kInside, .facing = true, .per_side = 2};
     default:
       return {};
   }

@@ -6,7 +6,7 @@
 //   compute   find_sets(), here     by Mode: line_of_sight.h (sampled) or area_occlusion.h (conservative)
 //   compress  change_table.h        the first cell's set and the changes between neighbouring cells
 //   store     codec.h               a change table as text, as bytes, as a file
-//   use       flags.h               one flag per node, toggled as the observer moves (Mrbsp::update())
+//   use       Flags, change_table.h one flag per node, toggled as the observer moves (Mrbsp::update())
 //
 // Cost: cells × coarse triangles × length of a line of sight, in parallel over cells; from all samples
 // (kVertices) samples in place of cells.
@@ -31,7 +31,7 @@ enum class Mode : std::uint8_t {
   kConservative,  // area to area over the full surface; misses none for an eye that is not below the surface
   kVertices,      // as kSampled, from all samples in the cell
   kFacing,        // as kSampled, for triangles that face the eye
-  kInterior,      // as kFacing, from places inside the cell
+  kInterior,      // as kFacing, from 2 × 2 places inside the cell, evenly spaced
 };
 // All but kConservative sample the coarse surface (line_of_sight.h) and may miss visible triangles.
 inline constexpr std::array<std::string_view, 5> kModeNames{"sampled", "conservative", "vertices", "facing",
@@ -42,7 +42,6 @@ struct Options {
   Mode mode = Mode::kConservative;
   int cells = 16;           // most cells along the longer side of the ground, 1 to 1024
   int coarseness = 6;       // levels from the finest to the coarse triangles; 1 more if the depth is even
-  int eyes = 2;             // kInterior only: eyes along each side of a cell, evenly spaced, 1 to 64
   float eye_height = 1.8F;  // metres above the ground, 0 to 1e6
 };
 

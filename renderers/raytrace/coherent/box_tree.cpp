@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "terrain/error.h"
-#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -114,10 +113,6 @@ BoxVisit BoxTree::next(const Ray& ray, const BoxVisit& last, float far) const {
     }
   }
   return found;
-}
-
-std::size_t BoxTree::bytes() const {
-  return payload_memory(boxes_).total() + payload_memory(order_).total() + payload_memory(nodes_).total();
 }
 
 }  // namespace terrabench

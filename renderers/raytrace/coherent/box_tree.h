@@ -28,8 +28,6 @@ class BoxTree {
   // the first. Conservative: widened by rounding, so that no hit inside a box is missed. O(log n) on average.
   BoxVisit next(const Ray&, const BoxVisit& last, float far) const;
 
-  std::size_t bytes() const;
-
  private:
   struct Node {
     Bounds box;

@@ -208,16 +208,11 @@ CoherentPicture trace_coherent(const PartScene& scene, const View& view, const C
   return picture;
 }
 
-Image CoherentPicture::image(const ToneMapping& mapping) const {
+Image CoherentPicture::image() const {
   Image image(width, height, {0, 0, 0});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      const glm::vec3 bytes = glm::floor(to_srgb(tone_mapped(radiance[at], mapping)) * 255.0F + 0.5F);
-      image.set(x, y,
-                {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
-                 static_cast<std::uint8_t>(bytes.z)});
+      image.set(x, y, srgb_bytes(tone_mapped(radiance[static_cast<std::size_t>(y) * width + x])));
     }
   }
   return image;

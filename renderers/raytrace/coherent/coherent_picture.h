@@ -5,7 +5,6 @@
 #pragma once
 
 #include "renderers/raytrace/coherent/part_queries.h"
-#include "renderers/raytrace/tone_mapping.h"
 #include "terrain/image.h"
 #include "terrain/view.h"
 
@@ -22,7 +21,7 @@ struct CoherentPicture {
   int width = 0, height = 0;
   std::vector<glm::vec3> radiance;     // per pixel, rows from top to bottom
   std::vector<std::uint32_t> objects;  // the part that the first sample sees, plus 1; 0 for the sky
-  Image image(const ToneMapping& = {}) const;
+  Image image() const;
 };
 
 // Throws usage_error for settings and views out of range, bad_input for radiance that is not finite, and what

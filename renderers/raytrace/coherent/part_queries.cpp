@@ -9,14 +9,14 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "renderers/raytrace/scattering.h"
 #include "terrain/error.h"
 #include "terrain/progress.h"
 
 namespace terrabench {
 namespace {
 
-constexpr std::size_t kRays = 2048;       // of a part, per task
-constexpr float kOffset = 64 * 0x1p-23F;  // as in path_tracer.cpp
+constexpr std::size_t kRays = 2048;  // of a part, per task
 
 std::vector<Bounds> boxes_of(const PartScene& scene) {
   std::vector<Bounds> boxes;
@@ -33,16 +33,6 @@ Ray transformed(const Ray& ray, const glm::mat4& matrix) {
   return local;
 }
 
-glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
-  const float length = glm::length(v);
-  return length > 0 && std::isfinite(length) ? v / length : otherwise;
-}
-
-template <class T>
-T interpolate(const std::vector<T>& values, const std::uint32_t* corners, const RayHit& hit) {
-  return (1 - hit.u - hit.v) * values[corners[0]] + hit.u * values[corners[1]] + hit.v * values[corners[2]];
-}
-
 PartHit surface(const RayPart& part, const glm::mat4& to_world, const Ray& ray, const RayHit& hit) {
   const TriangleMesh& mesh = part.mesh;
   const std::uint32_t* const corners = &mesh.indices[3 * std::size_t{hit.triangle}];
@@ -53,15 +43,15 @@ PartHit surface(const RayPart& part, const glm::mat4& to_world, const Ray& ray, 
   s.point.triangle = hit.triangle;
   s.point.mesh = part.tags.empty() ? 0 : part.tags[hit.triangle];
   s.point.local = a + hit.u * ab + hit.v * ac;
-  if (!part.texture.empty()) s.point.texture = interpolate(part.texture, corners, hit);
+  if (!part.texture.empty()) s.point.texture = hit.interpolate<glm::vec2>(part.texture, corners);
   const glm::mat3 of_normals = glm::transpose(glm::inverse(glm::mat3(to_world)));
   const glm::vec3 facet = glm::cross(ab, ac);
   s.point.position = glm::vec3(to_world * glm::vec4(s.point.local, 1));
   s.facet = unit_or(of_normals * unit_or(facet, {0, 1, 0}), -ray.direction);
-  s.point.normal = mesh.normals.empty() ? facet : interpolate(mesh.normals, corners, hit);
+  s.point.normal = mesh.normals.empty() ? facet : hit.interpolate<glm::vec3>(mesh.normals, corners);
   s.point.normal = unit_or(of_normals * s.point.normal, s.facet);
   const glm::vec3 size = glm::max(glm::abs(s.point.position), glm::abs(ab));
-  s.offset = kOffset * std::max({size.x, size.y, size.z});
+  s.offset = kRayOffset * std::max({size.x, size.y, size.z});
   return s;
 }
 
@@ -148,7 +138,5 @@ void PartQueries::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bl
     return -1.0F;
   });
 }
-
-std::size_t PartQueries::bytes() const { return tree_.bytes() + payload_memory(to_local_).total(); }
 
 }  // namespace terrabench

@@ -32,8 +32,6 @@ class PartQueries {
   // 1 where anything lies in [near, far] of the ray.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  std::size_t bytes() const;
-
  private:
   // Lets each ray visit the parts on its way: visit(part opened, its number, the ray's number, how far it
   // looks) returns how far the ray looks from then on, below 0 to end it.

@@ -1,0 +1,36 @@
+// The kinds of contexts behind open_context(), each of which loads its library when it is first opened.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "renderers/context.h"
+
+namespace terrabench {
+
+// The context with a picture to draw into, which each of the functions below makes last; it is current then.
+std::unique_ptr<GlContext> with_target(std::unique_ptr<GlContext>, int width, int height);
+
+// Mesa's off-screen context (OSMesa): software rendering with llvmpipe, no display, GPU or X needed.
+// Throws environment_error when the library is absent, or its Mesa has no OpenGL 4.5.
+std::unique_ptr<GlContext> open_osmesa(int width, int height, const char* library = "libOSMesa.so.8");
+
+// An off-screen context through EGL: on a GPU, without a display or window.
+enum class EglDevices : std::uint8_t {
+  kAll,   // GPUs in the driver's order, then Mesa's software device, then Mesa without any device
+  kGpus,  // GPUs only
+};
+
+// Opens the first device that can be initialised and has OpenGL 4.5. GlContext::renderer() names it. Throws
+// environment_error when the library is absent or there is no such device.
+std::unique_ptr<GlContext> open_egl(int width, int height, EglDevices devices = EglDevices::kAll,
+                                    const char* library = "libEGL.so.1");
+
+// A window through GLFW, on an X display. Pictures are drawn off-screen as in other contexts, and present()
+// copies them into the window.
+// A hidden window serves for pictures in memory. Only the main thread may open windows. Throws
+// environment_error when the library is absent, there is no display, or it has no OpenGL 4.5.
+std::unique_ptr<GlContext> open_glfw(int width, int height, bool visible = false,
+                                     const char* library = "libglfw.so.3");
+
+}  // namespace terrabench
