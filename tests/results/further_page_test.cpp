@@ -22,19 +22,20 @@ class FurtherPageTest : public FolderTest {
  protected:
   FurtherPageTest() : store_(folder_) { store_.begin_run(run_); }
 
-  // Some of what cross.representations and cross.error-maps measure there.
+  // Some of what cross.representations, cross.file-size and cross.error-maps measure there.
   void measure(const std::string& ground) {
     for (const char* const type : {"heightmap", "drill"}) {
-      for (const char* const share : {"", "/5%", "/20%"}) {
-        Record record =
-            fake_record(run_, "cross.representations", fmt::format("{}/{}{}", ground, type, share));
-        record.terrain = ground;
-        add(record, "file_bytes", "B", {1000});
-        add(record, "rmse", "m", {3});
-        add(record, "tried_bytes", "B", {1000, 2000});
-        add(record, "tried_rmse", "m", {3, 2});
-        store_.append(record);
-      }
+      Record record = fake_record(run_, "cross.representations", fmt::format("{}/{}", ground, type));
+      record.terrain = ground;
+      add(record, "file_bytes", "B", {1000});
+      add(record, "rmse", "m", {3});
+      store_.append(record);
+      Record files = fake_record(run_, "cross.file-size", fmt::format("{}/{}", ground, type));
+      files.terrain = ground;
+      add(files, "rmse_at_5%", "m", {3});
+      add(files, "best_bytes", "B", {1000, 2000});
+      add(files, "best_error", "m", {3, 2});
+      store_.append(files);
     }
     Record maps = fake_record(run_, "cross.error-maps", ground);
     maps.terrain = ground;
@@ -69,7 +70,7 @@ TEST_F(FurtherPageTest, HasTheTablesPlotsAndPicturesOfItsGround) {
     const std::string text = page("/x/alps.tif", form), id = ground_id("/x/alps.tif");
     for (const std::string& part :
          {std::string("Ground alps.tif"), "id=\"cross.representations-" + id + "\"",
-          "id=\"cross.representations-" + id + "-bytes\"", "figures/cross.representations-" + id + "-pareto.",
+          "id=\"cross.file-size-" + id + "\"", "figures/cross.file-size-" + id + "-plot.",
           "../figures/cross.error-maps." + id + ".webp", std::string("cross.error-maps alps.tif")}) {
       EXPECT_THAT(text, HasSubstr(part)) << form.extension;
     }
@@ -227,8 +228,7 @@ TEST_F(FurtherPageTest, HasASectionInTheLatexBundle) {
   for (const std::string& part :
        {std::string("\\section{Ground x/a\\_b.tif}"), "\\label{sec:ground-" + id + "}",
         "\\input{tables/cross.representations-" + id + ".tex}", "\\input{tables/which-method-" + id + ".tex}",
-        "{figures/cross.representations-" + id + "-pareto.pdf}",
-        "{pictures/cross.error-maps." + id + ".png}"}) {
+        "{figures/cross.file-size-" + id + "-plot.pdf}", "{pictures/cross.error-maps." + id + ".png}"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, HasSubstr("\\section{Ground y/a\\_b.tif}"));
