@@ -16,7 +16,7 @@ using testing::Not;
 // own; one that holds; one of ours that differs.
 std::string entries() {
   const std::string cause = "fails = [\"*\"]\ncause = \"p.S\"\n",
-                    own = "fails = [\"*\"]\nmatches = \"None.\"\n";
+                    own = "fails = [\"*\"]\nmatches = \"None does.\"\n";
   return "[[cause]]\nid = \"p.S\"\ntitle = \"S has two meanings\"\ntext = \"They cannot both be right.\"\n" +
          claim_entry("p.1", R"({equal = ["e/c/m", 1]})", cause + "matches = \"p.1.other\"\n") +
          claim_entry("p.1.other", R"({equal = ["e/c/m", 2]})", "reading_of = \"p.1\"\n") +
