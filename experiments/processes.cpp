@@ -188,11 +188,17 @@ void run_in_processes(int jobs, std::size_t tasks, const std::function<void(std:
 
 std::string call_in_process(const std::function<std::string()>& produce) {
   const auto failed = [](const char* what) {
-    return environment_error(fmt::format("cannot {} a temporary file: {}", what, std::strerror(errno)), "",
-                             "close other programs, or free some space in /tmp");
+    return environment_error(fmt::format("cannot {} a file in memory: {}", what, std::strerror(errno)), "",
+                             "close other programs");
   };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
-  if (!file) throw failed("create");
+  const int memory = memfd_create("text", MFD_CLOEXEC);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(memory < 0 ? nullptr : fdopen(memory, "w+"),
+                                                             std::fclose);
+  if (!file) {
+    const Error error = failed("create");
+    if (memory >= 0) close(memory);
+    throw error;
+  }
   run_in_processes(
       1, 1,
       [&](std::size_t) {

@@ -1,6 +1,6 @@
 // To follow one condition, read from the end: Reader::read(), read_metrics() (operands to samples), compare()
 // (kind to median or ratio, and whether it holds). A Quantity is an operand's name, unit and samples. How
-// findings are worded can wait: findings_text.cpp.
+// results are worded can wait: condition_text.cpp.
 #include "results/claims/evidence.h"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "results/claims/findings_text.h"
+#include "results/claims/condition_text.h"
 #include "results/store/provenance.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
@@ -19,11 +19,11 @@ namespace terrabench {
 namespace {
 
 using Kind = Condition::Kind;
-using Outcome = Finding::Outcome;
+using Outcome = ConditionResult::Outcome;
 
 // Relative difference of two values: |a - b| ÷ max(|a|, |b|), at most 1. 0 if they are equal, 1 if their
 // signs differ.
-double room_between(double a, double b) {
+double margin_between(double a, double b) {
   const double distance = std::abs(b - a), scale = std::max(std::abs(a), std::abs(b));
   if (distance == 0) return 0;
   return std::isfinite(scale) ? std::min(1.0, distance / scale) : 1;
@@ -33,27 +33,27 @@ double room_between(double a, double b) {
 // count: a lower bound of 0, since counts, bytes, times and shares are never less; and an upper bound of 1 of
 // a condition `within` whose lower bound is above 0, since the value is a share, of which 1 is the best. None
 // for a range of one value, as for an equality.
-std::optional<double> room_in_range(double value, const Condition& condition) {
+std::optional<double> margin_in_range(double value, const Condition& condition) {
   const double low = condition.low, high = condition.high;
   const bool share = condition.kind == Kind::kWithin && low > 0 && high == 1;
   if (low == high) return std::nullopt;
-  return std::min(low != 0 ? room_between(low, value) : 1.0, share ? 1.0 : room_between(value, high));
+  return std::min(low != 0 ? margin_between(low, value) : 1.0, share ? 1.0 : margin_between(value, high));
 }
 
 // Decides whether the condition holds; word_range() and word_chain() make a finding of that. Medians decide.
-Finding compare(const Condition& condition, const std::vector<Quantity>& quantities) {
+ConditionResult compare(const Condition& condition, const std::vector<Quantity>& quantities) {
   const std::vector<double>&first = quantities[0].samples, &second = quantities.back().samples;
   const auto in_range = [&](const Summary& s) {
     const bool holds = s.median >= condition.low && s.median <= condition.high;
-    Finding found = word_range(condition, quantities, s, holds);
-    if (holds) found.room = room_in_range(s.median, condition);
+    ConditionResult found = word_range(condition, quantities, s, holds);
+    if (holds) found.margin = margin_in_range(s.median, condition);
     return found;
   };
   if (condition.kind == Kind::kWithin) return in_range(summarise(first));
   if (condition.kind == Kind::kRatio) return in_range(summarise_ratio(first, second));
   if (condition.kind == Kind::kGrowth) return in_range(summarise_ratio(second, first));
   const bool equal = condition.kind == Kind::kEqual;  // else order: read() keeps figures apart
-  std::vector<double> medians, rooms;
+  std::vector<double> medians, margins;
   std::vector<bool> holds;  // for each median but the first: with the one before it
   constexpr double kNoBound = std::numeric_limits<double>::infinity();
   bool from_zero = false;  // whether the operand before is the number 0, a bound that does not count
@@ -61,14 +61,14 @@ Finding compare(const Condition& condition, const std::vector<Quantity>& quantit
     const double median = summarise(q.samples).median;
     if (!medians.empty()) {
       holds.push_back(equal ? medians.back() == median : medians.back() < median);
-      rooms.push_back(equal ? 0 : from_zero ? kNoBound : room_between(medians.back(), median));
+      margins.push_back(equal ? 0 : from_zero ? kNoBound : margin_between(medians.back(), median));
     }
     from_zero = q.name.empty() && median == 0;
     medians.push_back(median);
   }
-  const auto nearest = std::ranges::min_element(rooms);
-  Finding found = word_chain(equal, quantities, medians, holds, nearest - rooms.begin());
-  if (!equal && found.outcome == Outcome::kHolds && *nearest < kNoBound) found.room = *nearest;
+  const auto nearest = std::ranges::min_element(margins);
+  ConditionResult found = word_chain(equal, quantities, medians, holds, nearest - margins.begin());
+  if (!equal && found.outcome == Outcome::kHolds && *nearest < kNoBound) found.margin = *nearest;
   return found;
 }
 
@@ -107,14 +107,14 @@ class Reader {
   Evidence read(const Claim& claim) {
     name_cases_ = names_cases(claim);
     for (const Condition& condition : claim.conditions) {
-      evidence_.findings.push_back(condition.kind == Kind::kFigure ? read_figure(condition)
-                                                                   : read_metrics(condition));
+      evidence_.results.push_back(condition.kind == Kind::kFigure ? read_figure(condition)
+                                                                  : read_metrics(condition));
     }
     return std::move(evidence_);
   }
 
  private:
-  Finding read_metrics(const Condition& condition) {
+  ConditionResult read_metrics(const Condition& condition) {
     std::vector<Quantity> quantities;
     std::vector<const Record*> records;
     for (const Operand& operand : condition.operands) {
@@ -149,7 +149,7 @@ class Reader {
     }
   }
 
-  Finding read_figure(const Condition& condition) {
+  ConditionResult read_figure(const Condition& condition) {
     const auto [record, figure] = store_.find_figure(condition.figure, profile_);
     if (figure == nullptr) return {Outcome::kMissing, "no picture was drawn", "not drawn", "", "picture"};
     note_read(*record);

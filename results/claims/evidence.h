@@ -14,22 +14,22 @@
 namespace terrabench {
 
 // One condition, evaluated.
-struct Finding {
+struct ConditionResult {
   enum class Outcome { kHolds, kFails, kMissing } outcome = Outcome::kMissing;
   std::string text;  // in full: "time 0.12 s [0.11, 0.13], in [0, 1]"
   // In short: the figure that decides ("0.12 s"), what it must be ("[0, 1]", "< 3 s"), and its name ("time"),
   // which begins with the case's if the claim reads several cases.
   std::string value, expected, quantity;
-  // From 0, at a bound of the condition, to 1: of several that hold, the one with the least room says most
-  // about the verdict. None: it fails, or knows no distance (room_in_range() in evidence.cpp).
-  std::optional<double> room = std::nullopt;
+  // From 0, at a bound of the condition, to 1: of several that hold, the one with the least margin says most
+  // about the verdict. None: it fails, or knows no distance (margin_in_range() in evidence.cpp).
+  std::optional<double> margin = std::nullopt;
 };
 
 struct Evidence {
-  std::vector<Finding> findings;  // one per condition of the claim, in their order
-  std::vector<std::string> runs;  // ids of the runs whose records were read
-  bool altered = false;           // one of these records was altered by hand
-  bool incomparable = false;      // a ratio, growth or order of times mixes machines or builds
+  std::vector<ConditionResult> results;  // one per condition of the claim, in their order
+  std::vector<std::string> runs;         // ids of the runs whose records were read
+  bool altered = false;                  // one of these records was altered by hand
+  bool incomparable = false;             // a ratio, growth or order of times mixes machines or builds
 };
 
 // Changes the samples of a condition's operands that are metrics, in their order: what would the claim say of

@@ -14,70 +14,74 @@
 namespace terrabench {
 namespace {
 
-using Outcome = Finding::Outcome;
+using Outcome = ConditionResult::Outcome;
 
-// The findings' texts, separated by semicolons.
-std::string joined(const std::vector<Finding>& findings) {
+// The results' texts, separated by semicolons.
+std::string joined(const std::vector<ConditionResult>& results) {
   std::string text;
-  for (const Finding& finding : findings) {
+  for (const ConditionResult& result : results) {
     if (!text.empty()) text += "; ";
-    text += finding.text;
+    text += result.text;
   }
   return text;
 }
 
 // What is not as expected; empty if all is.
-std::string surprise(const Claim& claim, Verdict verdict, const std::vector<Finding>& findings) {
+std::string unexpected(const Claim& claim, Verdict verdict, const std::vector<ConditionResult>& results) {
   if (verdict == Verdict::kMissing)
     return fmt::format("expected verdict '{}', computed '{}'", name(claim.known()), name(verdict));
   std::string text;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
     const Condition::Expected expected = claim.conditions[i].expected;
-    const bool fails = findings[i].outcome == Outcome::kFails;
+    const bool fails = results[i].outcome == Outcome::kFails;
     if (expected == Condition::Expected::kEither || fails == (expected == Condition::Expected::kFails))
       continue;
     if (!text.empty()) text += "; ";
-    text += (fails ? "fails and must hold: " : "holds and was known to fail: ") + findings[i].text;
+    text += (fails ? "fails and must hold: " : "holds and was known to fail: ") + results[i].text;
   }
   return text;
 }
 
 // The index of Judgement::deciding. `exact`: whether the claim is of class E.
-std::size_t find_deciding(const std::vector<Finding>& findings, bool exact) {
+std::size_t find_deciding(const std::vector<ConditionResult>& results, bool exact) {
   for (const Outcome outcome : {Outcome::kMissing, Outcome::kFails}) {
-    const auto at = std::ranges::find(findings, outcome, &Finding::outcome);
-    if (at != findings.end()) return at - findings.begin();
+    const auto at = std::ranges::find(results, outcome, &ConditionResult::outcome);
+    if (at != results.end()) return at - results.begin();
   }
-  if (exact && !findings[0].room) return 0;
-  const auto room = [](const Finding& f) { return f.room.value_or(std::numeric_limits<double>::infinity()); };
-  return std::ranges::min_element(findings, {}, room) - findings.begin();
+  if (exact && !results[0].margin) return 0;
+  const auto margin = [](const ConditionResult& f) {
+    return f.margin.value_or(std::numeric_limits<double>::infinity());
+  };
+  return std::ranges::min_element(results, {}, margin) - results.begin();
 }
 
 void judge_measured(Judgement& judgement, const Store& store, const std::string& profile) {
   const Claim& claim = *judgement.claim;
   Evidence evidence = gather_evidence(claim, store, profile);
-  std::vector<Finding>& findings = evidence.findings;
-  const auto first = [&](Outcome outcome) { return std::ranges::find(findings, outcome, &Finding::outcome); };
+  std::vector<ConditionResult>& results = evidence.results;
+  const auto first = [&](Outcome outcome) {
+    return std::ranges::find(results, outcome, &ConditionResult::outcome);
+  };
   judgement.runs = evidence.runs;
-  judgement.deciding_condition = find_deciding(findings, claim.claim_class == 'E');
-  judgement.deciding = findings[judgement.deciding_condition];
-  judgement.stated = findings.front().text;
-  if (first(Outcome::kMissing) != findings.end()) {
+  judgement.deciding_condition = find_deciding(results, claim.claim_class == 'E');
+  judgement.deciding = results[judgement.deciding_condition];
+  judgement.stated = results.front().text;
+  if (first(Outcome::kMissing) != results.end()) {
     // Report only what is missing.
-    std::erase_if(findings, [](const Finding& finding) { return finding.outcome != Outcome::kMissing; });
+    std::erase_if(results, [](const ConditionResult& result) { return result.outcome != Outcome::kMissing; });
     judgement.verdict = Verdict::kMissing;
-  } else if (first(Outcome::kFails) != findings.end()) {
+  } else if (first(Outcome::kFails) != results.end()) {
     judgement.verdict = Verdict::kDiffers;
   } else {
     judgement.verdict = claim.claim_class == 'S' ? Verdict::kShape : Verdict::kReproduced;
   }
-  judgement.measured = joined(findings);
+  judgement.measured = joined(results);
   if (evidence.altered) {
     judgement.complaint = "rests on a record that was altered";
   } else if (evidence.incomparable) {
     judgement.complaint = "compares what was measured on different machines or builds";
   } else {
-    judgement.complaint = surprise(claim, judgement.verdict, findings);
+    judgement.complaint = unexpected(claim, judgement.verdict, results);
   }
 }
 

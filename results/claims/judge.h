@@ -2,7 +2,7 @@
 // 1. A claim (claims.h, read from experiments/*/claims.toml) has conditions on metrics of named cases.
 // 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition. Only
 //    records of one profile count, the newest record's unless another is chosen, of each case the newest.
-// 3. judge_measured() makes one verdict from the findings: missing if one could not be evaluated, differs if
+// 3. judge_measured() makes one verdict from the results: missing if one could not be evaluated, differs if
 //    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): pending or
 //    not comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
 // 4. Complaints, with which `terrabench check` exits with 1, only on claims that went through
@@ -27,13 +27,13 @@ struct Judgement {
   const Paper* paper = nullptr;
   const Claim* claim = nullptr;
   Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
-  std::string measured;                 // the findings in full; or why nothing was measured
+  std::string measured;                 // the results in full; or why nothing was measured
   std::string stated;                   // that on the first condition, which is what the claim states
   // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
-  // with the least room (Finding::room). Conditions without room (equalities, pictures, ranges of one value,
-  // a lower bound of 0 alone) decide only if an exact claim begins with one, or if no other has room. Empty
-  // if nothing was measured.
-  Finding deciding;
+  // with the least margin (ConditionResult::margin). Conditions without margin (equalities, pictures, ranges
+  // of one value, a lower bound of 0 alone) decide only if an exact claim begins with one, or if no other has
+  // margin. Empty if nothing was measured.
+  ConditionResult deciding;
   std::size_t deciding_condition = 0;  // its index in the claim's conditions
   std::vector<std::string> runs;       // ids of the runs that it rests on
   std::string complaint;               // why `check` fails at this claim; empty when it does not

@@ -12,15 +12,15 @@
 #include "results/claims/ranking.h"
 #include "results/claims/statements.h"
 #include "results/report/citation.h"
+#include "results/report/discrepancies.h"
 #include "results/report/document.h"
 #include "results/report/fill.h"
-#include "results/report/further_cases.h"
 #include "results/report/further_grounds.h"
 #include "results/report/ledger.h"
-#include "results/report/paper_faults.h"
 #include "results/report/report_parts.h"
 #include "results/report/report_tables.h"
 #include "results/report/shown_pictures.h"
+#include "results/report/unclaimed_cases.h"
 #include "results/store/format.h"
 #include "results/store/new_folder.h"
 #include "terrain/files.h"
@@ -57,7 +57,7 @@ class Report {
     for (const Paper& paper : papers_) {
       if (has_results(paper)) add_paper(paper);
     }
-    add_further_cases();
+    add_unclaimed_cases();
     add_section({2, "Without measurements", "absent"}, absence_table(results_));
     add_other_pictures();
     add_section({2, "Pending", "pending"}, pending_table(results_));
@@ -91,7 +91,7 @@ class Report {
     document_.push_back(Paragraph{"Every statement with what was measured and the reason of its verdict:",
                                   false,
                                   {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
-    add_paper_faults();
+    add_discrepancies();
     add_findings();
     add_further_grounds();
   }
@@ -217,14 +217,14 @@ class Report {
     write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links)));
   }
 
-  void add_paper_faults() {
-    const Document page = paper_faults(results_, papers_);
+  void add_discrepancies() {
+    const Document page = discrepancies(results_, papers_);
     if (page.empty()) return;
     write_page(out_, "wrong-or-vague", page);
     document_.push_back(Paragraph{
         "Every difference with its reason and the reading that matches:",
         false,
-        {{std::string(kPaperFaultsTitle), "wrong-or-vague.html"}, {"as Markdown", "wrong-or-vague.md"}}});
+        {{std::string(kDiscrepanciesTitle), "wrong-or-vague.html"}, {"as Markdown", "wrong-or-vague.md"}}});
   }
 
   // Drops the folder's path: it is private, and changes when the folder is copied.
@@ -324,13 +324,13 @@ class Report {
   }
   void add(Document blocks) { std::ranges::move(blocks, std::back_inserter(document_)); }
 
-  void add_further_cases() {
+  void add_unclaimed_cases() {
     Document tables;
-    for (const TableLayout& layout : further_cases(store_, papers_, further_, results_.profile)) {
+    for (const TableLayout& layout : unclaimed_cases(store_, papers_, further_, results_.profile)) {
       FilledTable filled = fill(layout, store_, results_);
       tables.push_back(parts_.table(std::move(filled.table), filled.runs));
     }
-    add_with_heading({2, "Further cases", "further"}, std::move(tables));
+    add_with_heading({2, "Unclaimed cases", "unclaimed"}, std::move(tables));
   }
 
   void add_other_pictures() {

@@ -53,16 +53,16 @@ std::string why(const Statement& statement, const Paper& paper) {
 }  // namespace
 
 std::string decided_by(const Judgement& j) {
-  const Finding& found = j.deciding;
+  const ConditionResult& found = j.deciding;
   if (found.value.empty()) return "–";
   const std::string text =
       fmt::format("{}{}{}", found.quantity, found.quantity.empty() ? "" : ": ", found.value);
   const std::size_t conditions = j.claim->conditions.size();
   if (conditions == 1) return text;
   std::string_view why_this;
-  if (found.outcome == Finding::Outcome::kFails) {
+  if (found.outcome == ConditionResult::Outcome::kFails) {
     why_this = ": the first that fails";
-  } else if (found.outcome == Finding::Outcome::kHolds && found.room) {
+  } else if (found.outcome == ConditionResult::Outcome::kHolds && found.margin) {
     why_this = ": the nearest to its bound";
   }
   const bool bound_here = !j.claim->tolerance.empty() && !found.expected.empty();

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <gdal_version.h>
-#include <png.h>
 #include <sched.h>
 #include <sys/utsname.h>
 #include <tbb/version.h>
 #include <vtkVersionMacros.h>
+#include <webp/encode.h>
 #include <xxhash.h>
 #include <zstd.h>
 
@@ -73,11 +73,12 @@ std::string packed(int number, int step) {
 }
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
+  const int webp = WebPGetEncoderVersion();
   return {
       {"fmt", packed(FMT_VERSION, 100)},
       {"GDAL", GDAL_RELEASE_NAME},
       {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
-      {"libpng", PNG_LIBPNG_VER_STRING},
+      {"libwebp", fmt::format("{}.{}.{}", webp >> 16, webp >> 8 & 255, webp & 255)},
       {"oneTBB", TBB_VERSION_STRING},
 #ifdef OPENVDB_LIBRARY_VERSION_STRING
       {"OpenVDB", OPENVDB_LIBRARY_VERSION_STRING},

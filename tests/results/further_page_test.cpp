@@ -118,7 +118,7 @@ TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
   }
   EXPECT_THAT(main_page, HasSubstr("<a href=\"#grounds\">Further grounds</a>")) << "in the navigation";
   EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"{}.html\"", ground_page(id))));
-  EXPECT_THAT(main_page, Not(HasSubstr("Further cases")));
+  EXPECT_THAT(main_page, Not(HasSubstr("Unclaimed cases")));
   EXPECT_THAT(main_page, Not(HasSubstr("cross.error-maps." + id)));
 }
 

@@ -121,7 +121,7 @@ TEST_F(OneClaim, DifferenceSaysByHowMuch) {
 TEST_F(OneClaim, TheFirstFailingConditionDecides) {
   metrics_ = {{"m_n", "B", {110}}, {"n", "B", {100}}, {"t", "s", {0.5}}};
   const auto deciding = [&](const std::string& check) {
-    const Finding found = judge_one(check).deciding;
+    const ConditionResult found = judge_one(check).deciding;
     return found.value + " | " + found.expected + " | " + found.quantity;
   };
   EXPECT_EQ(deciding("{within = [\"e/c/m_n\"], range = [90, 100]}"), "110 B | [90, 100] | m n");
@@ -139,7 +139,7 @@ TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
       {"m", "B", {110}}, {"n", "B", {100}}, {"few", "1/s", {3}}, {"share", "", {0}}, {"all", "", {1}}};
   const auto deciding = [&](const std::string& check, const std::string& type = "E") {
     const Judgement judged = judge_one(check, type);
-    const Finding& found = judged.deciding;
+    const ConditionResult& found = judged.deciding;
     return fmt::format("{} | {} | {} | {}", judged.deciding_condition, found.value, found.expected,
                        found.quantity);
   };
@@ -156,7 +156,8 @@ TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
   const std::string all = R"({within = ["e/c/all"], range = [0.85, 1]})";
   EXPECT_EQ(deciding(all + ", " + above), "1 | 3 1/s | > 2.9 | few");
   EXPECT_EQ(deciding(wide + ", " + all), "1 | 1 | [0.85, 1] | all");
-  // An equality decides only as the first of an exact claim or if no other has room; what fails always does.
+  // An equality decides only as the first of an exact claim or if no other has margin; what fails always
+  // does.
   const std::string positive = R"({order = [0, "e/c/few"]})";
   EXPECT_EQ(deciding(equal + ", " + above), "0 | 100 B | = 100 | n");
   EXPECT_EQ(deciding(equal + ", " + above, "T"), "1 | 3 1/s | > 2.9 | few");
@@ -169,11 +170,11 @@ TEST_F(OneClaim, OfConditionsThatHoldTheNearestToItsBoundDecides) {
 
 TEST_F(OneClaim, RoomIsTheDistanceToTheNearerBoundThatCounts) {
   constexpr double kNone = -1;
-  const auto room = [&](double value, const std::string& range, const char* kind = "ratio") {
+  const auto margin = [&](double value, const std::string& range, const char* kind = "ratio") {
     metrics_ = {{"m", "", {value}}, {"one", "", {1}}};
     const std::string operands = kind == std::string("ratio") ? "\"e/c/m\", \"e/c/one\"" : "\"e/c/m\"";
     return judge_one(fmt::format("{{{} = [{}], range = [{}]}}", kind, operands, range), "T")
-        .deciding.room.value_or(kNone);
+        .deciding.margin.value_or(kNone);
   };
   for (const auto& [value, range, expected] :
        std::vector<std::tuple<double, const char*, double>>{{0.5, "0.5, 2", 0},
@@ -186,12 +187,12 @@ TEST_F(OneClaim, RoomIsTheDistanceToTheNearerBoundThatCounts) {
                                                             {0, "0, 4", 1},
                                                             {1, "0.85, 1", 0},
                                                             {1, "1, 1", kNone}}) {
-    EXPECT_NEAR(room(value, range), expected, 1e-9) << value << " in " << range;
+    EXPECT_NEAR(margin(value, range), expected, 1e-9) << value << " in " << range;
   }
-  EXPECT_NEAR(room(1, "0.85, 1", "within"), 0.15, 1e-9) << "1 is the best share";
-  EXPECT_NEAR(judge_one("{order = [1, \"e/c/m\", 100]}", "T").deciding.room.value_or(kNone), kNone, 1e-9);
+  EXPECT_NEAR(margin(1, "0.85, 1", "within"), 0.15, 1e-9) << "1 is the best share";
+  EXPECT_NEAR(judge_one("{order = [1, \"e/c/m\", 100]}", "T").deciding.margin.value_or(kNone), kNone, 1e-9);
   metrics_ = {{"m", "", {4}}};
-  EXPECT_NEAR(judge_one("{order = [1, \"e/c/m\", 100]}", "T").deciding.room.value_or(kNone), 0.75, 1e-9);
+  EXPECT_NEAR(judge_one("{order = [1, \"e/c/m\", 100]}", "T").deciding.margin.value_or(kNone), 0.75, 1e-9);
 }
 
 TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {

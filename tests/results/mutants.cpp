@@ -14,7 +14,7 @@
 namespace terrabench {
 namespace {
 
-using Outcome = Finding::Outcome;
+using Outcome = ConditionResult::Outcome;
 using Samples = std::vector<double>;
 
 constexpr std::string_view kNames[] = {"0", "1", "equal", "10 times as large", "a tenth", "not a number"};
@@ -67,7 +67,7 @@ class Trial {
       for (Samples& samples : metrics) samples = {median(samples)};
       if (!metrics.empty()) change(metrics);
     };
-    return gather_evidence(one_, store_, store_.profile(), mutate).findings[0].outcome == Outcome::kHolds;
+    return gather_evidence(one_, store_, store_.profile(), mutate).results[0].outcome == Outcome::kHolds;
   }
 
   const Store& store_;

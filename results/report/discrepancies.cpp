@@ -1,4 +1,4 @@
-#include "results/report/paper_faults.h"
+#include "results/report/discrepancies.h"
 
 #include <fmt/format.h>
 
@@ -101,8 +101,8 @@ class Page {
 
 }  // namespace
 
-Document paper_faults(const JudgedResults& results, std::span<const Paper> papers) {
-  Document document = {Heading{1, std::string(kPaperFaultsTitle), "top"},
+Document discrepancies(const JudgedResults& results, std::span<const Paper> papers) {
+  Document document = {Heading{1, std::string(kDiscrepanciesTitle), "top"},
                        Paragraph{fmt::format(
                            "Statements of the papers that the measurements of profile “{}” do not confirm as "
                            "printed, by their cause, and what the papers leave open. {}",

@@ -1,4 +1,4 @@
-#include "results/report/further_cases.h"
+#include "results/report/unclaimed_cases.h"
 
 #include <algorithm>
 #include <set>
@@ -73,8 +73,8 @@ std::vector<TableLayout::Column> columns_for(std::span<const Record* const> reco
 
 }  // namespace
 
-std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper> papers,
-                                       std::span<const FurtherGround> further, std::string_view profile) {
+std::vector<TableLayout> unclaimed_cases(const Store& store, std::span<const Paper> papers,
+                                         std::span<const FurtherGround> further, std::string_view profile) {
   Shown shown;
   for (const Paper& paper : papers) add_shown(paper, store, profile, shown);
   for (const FurtherGround& ground : further) {
@@ -93,7 +93,7 @@ std::vector<TableLayout> further_cases(const Store& store, std::span<const Paper
   const GroundLabels labels = labels_of_grounds(store, profile);
   std::vector<TableLayout> tables;
   for (const auto& [experiment, records] : experiments) {
-    TableLayout table{experiment + ".further",
+    TableLayout table{experiment + ".unclaimed",
                       experiment,
                       "Medians of cases that no claim is about: other terrain, other parameters.",
                       experiment,

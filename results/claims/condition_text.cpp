@@ -1,4 +1,4 @@
-#include "results/claims/findings_text.h"
+#include "results/claims/condition_text.h"
 
 #include <fmt/format.h>
 
@@ -59,18 +59,18 @@ bool names_cases(const Claim& claim) {
   return false;
 }
 
-Finding word_missing(const Operand& o, bool name_case, const std::optional<WhyAbsent>& why) {
-  return {Finding::Outcome::kMissing,
+ConditionResult word_missing(const Operand& o, bool name_case, const std::optional<WhyAbsent>& why) {
+  return {ConditionResult::Outcome::kMissing,
           fmt::format("no {} of {} {} was measured{}", o.metric, o.experiment, o.case_name,
                       why ? fmt::format(" ({}: {})", why->word, why->reason) : ""),
           why ? std::string(why->word) : "not measured", "",
           (name_case ? o.case_name + " " : "") + spoken(o.metric)};
 }
 
-Finding word_range(const Condition& condition, const std::vector<Quantity>& quantities, const Summary& s,
-                   bool holds) {
+ConditionResult word_range(const Condition& condition, const std::vector<Quantity>& quantities,
+                           const Summary& s, bool holds) {
   const Quantity &first = quantities[0], &second = quantities.back();
-  Finding found{outcome(holds), "", "", "", first.name};
+  ConditionResult found{outcome(holds), "", "", "", first.name};
   std::string what = first.name;
   std::string_view unit = first.unit;
   if (condition.kind == Condition::Kind::kRatio) {
@@ -93,11 +93,12 @@ Finding word_range(const Condition& condition, const std::vector<Quantity>& quan
   return found;
 }
 
-Finding word_chain(bool equal, const std::vector<Quantity>& quantities, const std::vector<double>& medians,
-                   const std::vector<bool>& holds, std::size_t nearest) {
+ConditionResult word_chain(bool equal, const std::vector<Quantity>& quantities,
+                           const std::vector<double>& medians, const std::vector<bool>& holds,
+                           std::size_t nearest) {
   const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
   const auto failing = std::ranges::find(holds, false);
-  Finding found{outcome(failing == holds.end()), show(quantities[0], medians[0]), "", "", ""};
+  ConditionResult found{outcome(failing == holds.end()), show(quantities[0], medians[0]), "", "", ""};
   for (std::size_t i = 0; i < holds.size(); ++i) {
     found.text += fmt::format(" {} {}", holds[i] ? sign : broken, show(quantities[i + 1], medians[i + 1]));
     if (!holds[i] && medians[i] != medians[i + 1]) {

@@ -1,4 +1,4 @@
-// How findings (evidence.h) are worded. What holds is decided in evidence.cpp and passed in.
+// How the results of conditions (evidence.h) are worded. What holds is decided in evidence.cpp and passed in.
 #pragma once
 
 #include "results/claims/evidence.h"
@@ -16,15 +16,15 @@ Quantity quantity(const Operand&, const Metric&, bool name_case);
 // Whether the claim's metrics are of several cases, so that their names must say of which.
 bool names_cases(const Claim&);
 
-inline Finding::Outcome outcome(bool holds) {
-  return holds ? Finding::Outcome::kHolds : Finding::Outcome::kFails;
+inline ConditionResult::Outcome outcome(bool holds) {
+  return holds ? ConditionResult::Outcome::kHolds : ConditionResult::Outcome::kFails;
 }
-Finding word_missing(const Operand&, bool name_case, const std::optional<WhyAbsent>&);
+ConditionResult word_missing(const Operand&, bool name_case, const std::optional<WhyAbsent>&);
 // within, ratio, growth: `s` was compared with the condition's range.
-Finding word_range(const Condition&, const std::vector<Quantity>&, const Summary& s, bool holds);
+ConditionResult word_range(const Condition&, const std::vector<Quantity>&, const Summary& s, bool holds);
 // equal, order: holds[i] tells whether medians i and i + 1 do. In short, shows the first pair that fails,
 // else the pair `nearest`.
-Finding word_chain(bool equal, const std::vector<Quantity>&, const std::vector<double>& medians,
-                   const std::vector<bool>& holds, std::size_t nearest);
+ConditionResult word_chain(bool equal, const std::vector<Quantity>&, const std::vector<double>& medians,
+                           const std::vector<bool>& holds, std::size_t nearest);
 
 }  // namespace terrabench

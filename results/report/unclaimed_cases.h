@@ -16,7 +16,7 @@ namespace terrabench {
 // One table per experiment with such cases, in the order of measurement. The columns are those of the
 // experiment's first table in the claims files that these cases have metrics for; if there are none, all
 // metrics of these cases.
-std::vector<TableLayout> further_cases(const Store&, std::span<const Paper>, std::span<const FurtherGround>,
-                                       std::string_view profile);
+std::vector<TableLayout> unclaimed_cases(const Store&, std::span<const Paper>, std::span<const FurtherGround>,
+                                         std::string_view profile);
 
 }  // namespace terrabench

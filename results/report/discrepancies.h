@@ -9,9 +9,9 @@
 
 namespace terrabench {
 
-inline constexpr std::string_view kPaperFaultsTitle = "Where the papers are wrong or vague";
+inline constexpr std::string_view kDiscrepanciesTitle = "Where the papers are wrong or vague";
 
 // Links lead into the ledger. Empty if no claim belongs here.
-Document paper_faults(const JudgedResults&, std::span<const Paper>);
+Document discrepancies(const JudgedResults&, std::span<const Paper>);
 
 }  // namespace terrabench

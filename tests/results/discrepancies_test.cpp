@@ -1,4 +1,4 @@
-#include "results/report/paper_faults.h"
+#include "results/report/discrepancies.h"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ using testing::Not;
 // own; one that holds; one of ours that differs.
 std::string entries() {
   const std::string cause = "fails = [\"*\"]\ncause = \"p.S\"\n",
-                    own = "fails = [\"*\"]\nmatches = \"None.\"\n";
+                    own = "fails = [\"*\"]\nmatches = \"None does.\"\n";
   return "[[cause]]\nid = \"p.S\"\ntitle = \"S has two meanings\"\ntext = \"They cannot both be right.\"\n" +
          claim_entry("p.1", R"({equal = ["e/c/m", 1]})", cause + "matches = \"p.1.other\"\n") +
          claim_entry("p.1.other", R"({equal = ["e/c/m", 2]})", "reading_of = \"p.1\"\n") +
@@ -27,19 +27,19 @@ std::string entries() {
                      own + "note = \"It does not.\"\nabout = \"beyond\"\n");
 }
 
-class PaperFaults : public FolderTest {
+class Discrepancies : public FolderTest {
  protected:
-  PaperFaults() : papers_{paper_of(entries())} {
+  Discrepancies() : papers_{paper_of(entries())} {
     Store store(folder_);
     Record record = fake_record(fake_provenance(), "e", "c");
     add(record, "m", "", {2});
     store.append(record);
   }
-  std::string page() const { return markdown(paper_faults(judge(Store::open(folder_), papers_), papers_)); }
+  std::string page() const { return markdown(discrepancies(judge(Store::open(folder_), papers_), papers_)); }
   std::vector<Paper> papers_;
 };
 
-TEST_F(PaperFaults, ACauseStandsOnceWithAllItsStatements) {
+TEST_F(Discrepancies, ACauseStandsOnceWithAllItsStatements) {
   const std::string text = page();
   const std::size_t cause = text.find("cannot both be right"), first = text.find("w: states p.1"),
                     second = text.find("w: states p.2"), third = text.find("w: states p.3");
@@ -54,7 +54,7 @@ TEST_F(PaperFaults, ACauseStandsOnceWithAllItsStatements) {
   EXPECT_THAT(text, Not(HasSubstr("states p.5"))) << "what is ours says nothing about the paper";
 }
 
-TEST_F(PaperFaults, StatementsAreCountedOnceAndApartFromOurOwn) {
+TEST_F(Discrepancies, StatementsAreCountedOnceAndApartFromOurOwn) {
   EXPECT_THAT(
       page(),
       HasSubstr(

@@ -1,4 +1,4 @@
-#include "results/report/further_cases.h"
+#include "results/report/unclaimed_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace terrabench {
 namespace {
 
-using FurtherCases = FolderTest;
+using UnclaimedCases = FolderTest;
 
 std::string entries() {
   return claim_entry("p.1", R"({equal = ["e/judged/n", 1]})") +
@@ -17,7 +17,7 @@ std::string entries() {
          plot_entry("p.p", R"({label = "l", experiment = "e", metric = "n", cases = [[1, "plotted"]]})");
 }
 
-TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
+TEST_F(UnclaimedCases, AreThoseThatNothingElseShows) {
   const Provenance run = fake_provenance();
   Store store(folder_);
   store.begin_run(run);
@@ -39,7 +39,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   measure("f", "second", "b", "");
   const std::vector<Paper> papers{paper_of(entries())};
 
-  const std::vector<TableLayout> tables = further_cases(store, papers, {}, "quick");
+  const std::vector<TableLayout> tables = unclaimed_cases(store, papers, {}, "quick");
   ASSERT_EQ(tables.size(), 2U);
   // As the claims file's own table shows them, without columns that none of them has.
   ASSERT_EQ(tables[0].columns.size(), 1U);
@@ -52,7 +52,7 @@ TEST_F(FurtherCases, AreThoseThatNothingElseShows) {
   EXPECT_EQ(tables[1].columns[0].unit, "px");
   EXPECT_EQ(tables[1].rows.size(), 2U);
 
-  EXPECT_TRUE(further_cases(store, papers, {}, "paper").empty());
+  EXPECT_TRUE(unclaimed_cases(store, papers, {}, "paper").empty());
 }
 
 }  // namespace
