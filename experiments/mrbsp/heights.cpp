@@ -8,7 +8,7 @@
 #include "experiments/experiment.h"
 #include "experiments/mrbsp/ground.h"
 #include "lod/mrbsp/bisection_tree.h"
-#include "lod/mrbsp/height_points.h"
+#include "lod/mrbsp/nearest_three.h"
 #include "lod/mrbsp/subset_triangles.h"
 
 namespace terrabench::mrbsp {

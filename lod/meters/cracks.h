@@ -7,7 +7,7 @@
 // terrain's border have no neighbour, nor have edges out of view beside culled triangles; neither is a fault.
 // Triangles without plan area are ignored: a gap behind a skirt is a gap. Overlaps are found as edges that
 // occur twice in one direction and, where a layer is so large that its rim is out of view, as samples covered
-// twice (coverage.h). O(triangles log triangles) time, in parallel; bounded memory, by several passes over
+// twice. O(triangles log triangles) time, in parallel; bounded memory, by several passes over
 // large frames.
 #pragma once
 

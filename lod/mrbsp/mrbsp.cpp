@@ -7,7 +7,7 @@
 
 #include "lod/memory.h"
 #include "lod/mrbsp/bisection_tree.h"
-#include "lod/mrbsp/height_points.h"
+#include "lod/mrbsp/nearest_three.h"
 #include "lod/mrbsp/visibility/codec.h"
 #include "terrain/error.h"
 

@@ -3,7 +3,7 @@
 // ground hides from the observer's cell are skipped. Memory: heights, bounds of the upper triangles and one
 // bit per vertex.
 //
-// bisection_tree.h   §2  the tree, without stored nodes; heights from height points: height_points.h
+// bisection_tree.h   §2  the tree, without stored nodes; heights from height points: nearest_three.h
 // lod_rule.h         §3  the depth at which a triangle is drawn, and how those of different depth meet
 // visibility/sets.h  §4  which triangles the ground hides
 // tree_walk.h            the traversal that applies them; update() is O(triangles drawn)

@@ -15,6 +15,10 @@
 #include <span>
 #include <vector>
 
+#include "lod/mrbsp/bisection_tree.h"
+#include "terrain/heightfield.h"
+#include "terrain/progress.h"
+
 namespace terrabench {
 
 // The three nearest points offered so far, nearest first; of equally near points the lower number first.
@@ -76,5 +80,13 @@ PlanExtent plan_extent(std::span<const glm::vec3> points);
 
 inline glm::vec2 in_plan(const glm::vec3& p) { return {p.x, p.z}; }
 inline float plan_cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
+
+// Heights of the tree's vertices from height points (MRBSP paper, §2). Each vertex takes its height from the
+// three nearest of all points, so all triangles that meet at a vertex agree on its height.
+// (side + 1)² heights over the rectangle that the points span. O(points + vertices), in parallel; the result
+// does not depend on the number of threads. Throws usage_error for points in one line.
+Heightfield interpolate_heights(std::span<const glm::vec3> points, const BisectionTree&, Progress&);
+// The field's samples as height points.
+std::vector<glm::vec3> height_points(const Heightfield&);
 
 }  // namespace terrabench

@@ -1,6 +1,6 @@
 // Heights by the recursion as printed (MRBSP paper, §2): each half of a triangle gets the points on its side
 // of the divider, and each of its corners takes its height from the three nearest of these (nearest_three.h).
-// Triangles that meet at a vertex then disagree on its height; with height_points.h they agree.
+// Triangles that meet at a vertex then disagree on its height; with interpolate_heights() they agree.
 // O(points × levels).
 #pragma once
 

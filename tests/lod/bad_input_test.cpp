@@ -204,7 +204,10 @@ TEST_P(BadInput, TheKnobTakesItsRangeAlone) {
     lod->tune(value);
     return lod->update(across(field)).stats.triangles;
   };
-  const std::size_t finest = drawn_with(knob.finest), coarsest = drawn_with(knob.coarsest);
+  const std::size_t finest = drawn_with(knob.finest), fallback = drawn_with(knob.fallback),
+                    coarsest = drawn_with(knob.coarsest);
+  EXPECT_GE(finest, fallback);
+  EXPECT_GE(fallback, coarsest);
   const double sign = knob.finest < knob.coarsest ? 1 : -1;
   for (const double beyond : {1.0, 1e10, 1e300, double{kInfinity}}) {
     EXPECT_EQ(drawn_with(knob.finest - sign * beyond), finest) << beyond;

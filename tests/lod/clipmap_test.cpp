@@ -109,23 +109,6 @@ TEST(Clipmap, HoldsTheGroundsHeightsAfterAnyWalk) {
   }
 }
 
-TEST(Clipmap, UploadsTheLShapedStripsOnly) {
-  const Heightfield field = rough(1025, 1025);
-  Clipmap lod(heights_in_memory(field), 127);
-  const auto at = [&](int i, int j) {
-    return everything(field, static_cast<float>(i) * field.cell_x, static_cast<float>(j) * field.cell_z, 1);
-  };
-  const std::size_t n = static_cast<std::size_t>(lod.window());
-  const std::size_t all = lod.update(at(512, 512)).stats.bytes_uploaded;
-  EXPECT_GT(all, 4 * n * n * static_cast<std::size_t>(lod.levels()));
-  EXPECT_EQ(lod.update(at(512, 512)).stats.bytes_uploaded, 0U);
-  EXPECT_EQ(lod.update(at(513, 513)).stats.bytes_uploaded, 0U);  // windows move in steps of two samples
-  EXPECT_EQ(lod.update(at(514, 512)).stats.bytes_uploaded, 4 * 2 * n);  // only the finest level
-  EXPECT_EQ(
-      lod.update(at(516, 514)).stats.bytes_uploaded,  // L: two columns, two rows; the next level: columns
-      4 * (2 * n + 2 * (n - 2)) + 4 * 2 * n);
-}
-
 // For any move, uploads are exactly the samples that are new in each window: n² less those shared with its
 // former place.
 TEST(Clipmap, UploadsEachNewSampleOnce) {

@@ -34,6 +34,19 @@ inline std::vector<glm::vec3> corners_of(const Frame& frame) {
   return corners;
 }
 
+// The heights in all windows of a clipmap, n × n samples each, in lattice order.
+inline std::vector<float> windows_of(const Frame& frame, int n) {
+  std::vector<float> heights;
+  for (const ClipLevel& level : frame.clip_levels) {
+    const int mask = level.side - 1;
+    for (int b = level.corner.y; b < level.corner.y + n; ++b) {
+      for (int a = level.corner.x; a < level.corner.x + n; ++a)
+        heights.push_back(level.heights[(b & mask) * level.side + (a & mask)]);
+    }
+  }
+  return heights;
+}
+
 // Of a surface seen from above; what faces down counts negatively.
 inline double plan_area(const std::vector<glm::vec3>& corners) {
   double area = 0;

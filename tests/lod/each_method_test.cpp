@@ -7,7 +7,6 @@
 
 #include "lod/meters/cracks.h"
 #include "lod/meters/screen_error.h"
-#include "terrain/memory.h"
 #include "tests/lod/drawing.h"
 #include "tests/lod/variants.h"
 
@@ -25,16 +24,6 @@ class EachMethod : public ::testing::TestWithParam<Variant> {
   Progress silent_;
 };
 
-TEST_P(EachMethod, CountsItsHeapBytes) {
-  build();  // creates the thread pool, which stays
-  const HeapScope heap;
-  const std::unique_ptr<Lod> lod = build();
-  EXPECT_EQ(heap.held(), static_cast<std::int64_t>(lod->memory().total()));
-  for (const View& view : path_) lod->update(view);
-  const auto counted = static_cast<std::int64_t>(lod->memory().total());  // first: waits for other threads
-  EXPECT_EQ(heap.held(), counted);
-}
-
 TEST_P(EachMethod, DrawsTheSameForTheSameViews) {
   const std::unique_ptr<Lod> one = build(), other = build();
   for (const View& view : path_) {
@@ -50,18 +39,6 @@ TEST_P(EachMethod, UploadsEverythingAtFirstAndNoHeightsTwiceAtRest) {
   for (const DirtyRange& range : lod->update(path_.front()).uploads) {
     EXPECT_EQ(range.target, DirtyRange::Target::kMorphs);
   }
-}
-
-TEST_P(EachMethod, DrawsNoMoreTrianglesWithACoarserKnob) {
-  const Knob& knob = type_.knob;
-  const std::unique_ptr<Lod> lod = build();
-  const auto drawn_with = [&](double value) {
-    lod->tune(value);
-    return lod->update(path_.front()).stats.triangles;
-  };
-  const std::size_t finest = drawn_with(knob.finest), fallback = drawn_with(knob.fallback);
-  EXPECT_GE(finest, fallback);
-  EXPECT_GE(fallback, drawn_with(knob.coarsest));
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EachMethod, ::testing::ValuesIn(variants()), name_of);

@@ -39,18 +39,7 @@ View over(int i, int j, glm::ivec2 origin = glm::ivec2(0), float far = 20000) {
   return view;
 }
 
-// The heights in all windows, in lattice order.
-std::vector<float> held(const Frame& frame, int n) {
-  std::vector<float> heights;
-  for (const ClipLevel& level : frame.clip_levels) {
-    const int mask = level.side - 1;
-    for (int b = level.corner.y; b < level.corner.y + n; ++b) {
-      for (int a = level.corner.x; a < level.corner.x + n; ++a)
-        heights.push_back(level.heights[(b & mask) * level.side + (a & mask)]);
-    }
-  }
-  return heights;
-}
+using test::windows_of;
 
 TEST(Endless, AWalkOf120KilometresAndBackFindsTheSameGround) {
   const auto lod = std::make_unique<Clipmap>(endless_heights(kGround), 63);
@@ -59,16 +48,16 @@ TEST(Endless, AWalkOf120KilometresAndBackFindsTheSameGround) {
   const auto memory = [&] { return lod->memory().total(); };
   std::size_t at_first = 0;
   for (int k = 0; k <= kSteps; ++k) {
-    there.push_back(held(lod->update(over(kBy * k, -7 * k)), lod->window()));
+    there.push_back(windows_of(lod->update(over(kBy * k, -7 * k)), lod->window()));
     if (k == 0) at_first = memory();
   }
   ASSERT_GE(kSteps * kBy * kGround.cell, 100000);
   for (int k = kSteps; k >= 0; --k) {
-    const std::vector<float> back = held(lod->update(over(kBy * k, -7 * k)), lod->window());
+    const std::vector<float> back = windows_of(lod->update(over(kBy * k, -7 * k)), lod->window());
     ASSERT_EQ(back, there[k]) << k;
     if (k % 40 == 0) {
       Clipmap fresh = endless(63);
-      ASSERT_EQ(back, held(fresh.update(over(kBy * k, -7 * k)), fresh.window())) << k;
+      ASSERT_EQ(back, windows_of(fresh.update(over(kBy * k, -7 * k)), fresh.window())) << k;
     }
   }
   // Only the draw lists may grow, with the blocks in view.

@@ -1,5 +1,4 @@
 // Heights from the three nearest points, against a search of all points.
-#include "lod/mrbsp/height_points.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
