@@ -54,38 +54,31 @@ RayMaterial fork(std::string_view, const SurfacePoint& at) {
   return {.albedo = glm::clamp(spots * bark, 0.0F, 1.0F), .roughness = 1};
 }
 
-bool is_leaf(std::string_view symbol) { return symbol == "green"; }
+struct Tree {
+  glm::vec3 leaf_dark, leaf_light;
+  glm::vec3 grain;  // how often the bark's pattern repeats per metre, along each axis
+  glm::vec3 bark_dark, bark_light;
+};
+constexpr Tree kAspen{
+    {0.13F, 0.27F, 0.05F}, {0.3F, 0.42F, 0.09F}, {9, 40, 9}, {0.2F, 0.18F, 0.15F}, {0.46F, 0.43F, 0.36F}};
+constexpr Tree kTupelo{
+    {0.07F, 0.2F, 0.04F}, {0.2F, 0.36F, 0.08F}, {20, 8, 20}, {0.1F, 0.07F, 0.05F}, {0.26F, 0.2F, 0.15F}};
+constexpr Tree kTamarack{
+    {0.05F, 0.16F, 0.07F}, {0.13F, 0.27F, 0.1F}, {14, 5, 14}, {0.13F, 0.09F, 0.07F}, {0.3F, 0.23F, 0.18F}};
+constexpr Tree kOak{
+    {0.1F, 0.18F, 0.04F}, {0.26F, 0.32F, 0.08F}, {18, 5, 18}, {0.08F, 0.07F, 0.06F}, {0.24F, 0.21F, 0.18F}};
 
-RayMaterial leaf(const SurfacePoint& at, const glm::vec3& dark, const glm::vec3& light) {
+template <const Tree& look>
+RayMaterial tree(std::string_view symbol, const SurfacePoint& at) {
+  if (symbol != "green") {
+    const float spots = std::clamp(0.5F + rough_noise(look.grain * at.local), 0.0F, 1.0F);
+    return {.albedo = glm::mix(look.bark_dark, look.bark_light, spots), .roughness = 1};
+  }
   const float mix = std::clamp(0.5F + 0.9F * noise(2.3F * at.local), 0.0F, 1.0F);
-  return {.albedo = glm::mix(dark, light, mix), .translucency = 0.35F, .specular = 0.03F, .roughness = 0.5F};
-}
-
-// `grain`: how often the bark's pattern repeats per metre, along each axis.
-RayMaterial bark(const SurfacePoint& at, const glm::vec3& grain, const glm::vec3& dark,
-                 const glm::vec3& light) {
-  const float spots = std::clamp(0.5F + rough_noise(grain * at.local), 0.0F, 1.0F);
-  return {.albedo = glm::mix(dark, light, spots), .roughness = 1};
-}
-
-RayMaterial aspen(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.13F, 0.27F, 0.05F}, {0.3F, 0.42F, 0.09F});
-  return bark(at, {9, 40, 9}, {0.2F, 0.18F, 0.15F}, {0.46F, 0.43F, 0.36F});
-}
-
-RayMaterial tupelo(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.07F, 0.2F, 0.04F}, {0.2F, 0.36F, 0.08F});
-  return bark(at, {20, 8, 20}, {0.1F, 0.07F, 0.05F}, {0.26F, 0.2F, 0.15F});
-}
-
-RayMaterial tamarack(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.05F, 0.16F, 0.07F}, {0.13F, 0.27F, 0.1F});
-  return bark(at, {14, 5, 14}, {0.13F, 0.09F, 0.07F}, {0.3F, 0.23F, 0.18F});
-}
-
-RayMaterial oak(std::string_view symbol, const SurfacePoint& at) {
-  if (is_leaf(symbol)) return leaf(at, {0.1F, 0.18F, 0.04F}, {0.26F, 0.32F, 0.08F});
-  return bark(at, {18, 5, 18}, {0.08F, 0.07F, 0.06F}, {0.24F, 0.21F, 0.18F});
+  return {.albedo = glm::mix(look.leaf_dark, look.leaf_light, mix),
+          .translucency = 0.35F,
+          .specular = 0.03F,
+          .roughness = 0.5F};
 }
 
 RayMaterial candle_holder(std::string_view symbol, const SurfacePoint& at) {
@@ -108,11 +101,11 @@ constexpr std::array kPainted{
     PaintedModel{"cactus", cactus},
     PaintedModel{"fork_ridges", fork},
     PaintedModel{"fork_ridges_random", fork},
-    PaintedModel{"branch_aspen", aspen},
-    PaintedModel{"bush_tupelo", tupelo},
-    PaintedModel{"aspen", aspen},
-    PaintedModel{"tamarack", tamarack},
-    PaintedModel{"oak", oak},
+    PaintedModel{"branch_aspen", tree<kAspen>},
+    PaintedModel{"bush_tupelo", tree<kTupelo>},
+    PaintedModel{"aspen", tree<kAspen>},
+    PaintedModel{"tamarack", tree<kTamarack>},
+    PaintedModel{"oak", tree<kOak>},
     PaintedModel{"candle_holder", candle_holder},
 };
 

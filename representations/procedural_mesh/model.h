@@ -6,7 +6,7 @@
 // RuleReader::run() in model_rules.cpp and what it calls for "sections"; expand() in expand.cpp;
 // growing/grow.h; Grower::run() and step() in growing/grow.cpp; RuleApplier::run() in growing/apply_rule.cpp
 // and extrude(), which make the new elements of one face. What can wait: expressions (growing/expression.h),
-// checks of what is written down (growing/well_formed.h), limits, dropping what was replaced, textures, and
+// checks of what is written down (growing/well_formed.cpp), limits, dropping what was replaced, textures, and
 // subdivision (subdivision/subdivide.h).
 #pragma once
 

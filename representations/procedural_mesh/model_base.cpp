@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 
 #include "representations/procedural_mesh/base_mesh.h"
-#include "representations/procedural_mesh/growing/well_formed.h"
 #include "representations/procedural_mesh/model_reader.h"
 #include "terrain/error.h"
 

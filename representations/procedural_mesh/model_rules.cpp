@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "representations/procedural_mesh/growing/well_formed.h"
 #include "representations/procedural_mesh/model_reader.h"
 #include "terrain/error.h"
 

@@ -79,10 +79,10 @@ TEST(MeshgrowModelFigures, OnlySharpEdgesHaveSeveralNormals) {
 
 TEST(MeshgrowModelFigures, EveryLevelLeavesOutStepsOfAPaintedModel) {
   for (const Case& test_case : experiment("meshgrow.lod").cases({})) {
-    const std::string name = at.parameters.text("model");
+    const std::string name = test_case.parameters.text("model");
     EXPECT_EQ(painted(name).model, name);
-    const std::string left_out = at.parameters.text("left_out");
-    EXPECT_EQ(left_out.empty(), at.name.ends_with("/full")) << at.name;
+    const std::string left_out = test_case.parameters.text("left_out");
+    EXPECT_EQ(left_out.empty(), test_case.name.ends_with("/full")) << test_case.name;
   }
   EXPECT_THROW(painted("palm"), Error);
 }

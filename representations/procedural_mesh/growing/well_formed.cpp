@@ -1,11 +1,11 @@
-#include "representations/procedural_mesh/growing/well_formed.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "representations/procedural_mesh/growing/frame.h"
+#include "representations/procedural_mesh/growing/rules.h"
+#include "representations/procedural_mesh/subdivision/topology.h"
 #include "terrain/error.h"
 
 namespace terrabench::growing {
@@ -53,22 +53,27 @@ Topology check_template(const Template& replacement, const std::string& where) {
   std::iota(base.rbegin(), base.rend(), 0U);
   mesh.add_face(base);
   Topology t = topology_of(mesh, where);
-  for (const subdivision::Edge& edge : t.edges) {
-    const std::uint32_t c = edge.half[0], f = t.corner_face.empty() ? c / 4 : t.corner_face[c];
-    const auto corners = mesh.face(f);
-    const std::uint32_t a = t.corners[c], b = corners[(c + 1 - mesh.first_corner[f]) % corners.size()];
-    const bool of_base = std::max(a, b) < n, next = b == (a + 1) % n || a == (b + 1) % n;
-    if (of_base && !next) {
-      throw bad_input(fmt::format("an edge from {} to {} joins two corners of the base", a, b), where,
-                      "put a vertex between them");
+  for (std::uint32_t a = 0; a < n; ++a) {
+    const std::uint32_t b = (a + 1) % n;
+    if (t.edges[subdivision::edge_between(t, a, b)].half[1] != kNone) continue;
+    throw bad_input(
+        fmt::format("the template does not fit its face: no face runs through the edge from {} to {} "
+                    "of the base",
+                    a, b),
+        where, "give each edge of the base a face");
+  }
+  for (std::size_t f = 0; f < mesh.faces(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::uint32_t a = face[k], b = face[(k + 1) % face.size()];
+      if (std::max(a, b) < n && b != (a + 1) % n && a != (b + 1) % n) {
+        throw bad_input(fmt::format("an edge from {} to {} joins two corners of the base", a, b), where,
+                        "put a vertex between them");
+      }
+      if (t.edges[subdivision::edge_between(t, a, b)].half[1] != kNone) continue;
+      throw bad_input(fmt::format("the edge from {} to {} has one face only", a, b), where,
+                      "close the template");
     }
-    if (edge.half[1] != kNone) continue;
-    throw of_base ? bad_input(fmt::format("the template does not fit its face: no face runs through the edge "
-                                          "from {} to {} of the base",
-                                          b, a),
-                              where, "give each edge of the base a face")
-                  : bad_input(fmt::format("the edge from {} to {} has one face only", a, b), where,
-                              "close the template");
   }
   check_vertices(t, where);
   return t;
