@@ -128,7 +128,7 @@ std::vector<RepresentationType>& table() {
        Tin::build,
        Tin::load,
        Tin::decode,
-       kPerColumn,
+       {},
        {},
        kTinKnobs},
       {"procedural_mesh",

@@ -20,6 +20,7 @@ TEST_P(ErrorMaps, ShowEveryTypeWithItsBytesAndItsError) {
   const Case at{GetParam(),
                 {maps.parameters,
                  {{"share", 0.3},
+                  {"builds", std::int64_t{8}},
                   {"size", std::int64_t{65}},
                   {"resolution", std::int64_t{32}},
                   {"lines", std::int64_t{80}}}},

@@ -20,13 +20,12 @@ namespace {
 
 constexpr std::string_view kId = "cross.representations";
 
-Record measure(std::string_view type, const std::string& terrain, double share, double error = 0,
+Record measure(std::string_view type, const std::string& terrain, double error = 0,
                std::int64_t resolution = 24) {
   const Experiment& compared = experiment(kId);
   const Case at{"small",
                 {compared.parameters,
                  {{"representation", std::string(type)},
-                  {"share", share},
                   {"error", error},
                   {"size", std::int64_t{65}},
                   {"resolution", resolution},
@@ -48,32 +47,32 @@ TEST(RepresentationCases, NameEveryType) {
   for (const RepresentationType& type : representations()) {
     const std::string heights = fmt::format("fractal/{}", type.name),
                       solid = fmt::format("caves/{}", type.name);
-    for (const char* const suffix : {"", "/1%", "/5%", "/20%", "/rmse=0.1%", "/rmse=0.5%", "/rmse=2%"})
+    for (const char* const suffix : {"", "/rmse=0.1%", "/rmse=0.5%", "/rmse=2%"})
       EXPECT_TRUE(names.contains(heights + suffix)) << heights << suffix;
-    for (const char* const suffix : {"", "/1%", "/5%", "/20%", "/rmse=1%", "/rmse=2%", "/rmse=5%"})
+    for (const char* const suffix : {"", "/rmse=1%", "/rmse=2%", "/rmse=5%"})
       EXPECT_TRUE(names.contains(solid + suffix)) << solid << suffix;
     EXPECT_FALSE(names.contains(solid + "/rmse=0.1%"));
   }
 }
 
-// Only what takes the same bytes, or has the same error, is ranked by it.
+// Heights are ranked at the same error, solids where the air under overhangs is kept.
 TEST(RepresentationCases, AreRankedOnlyWhereTheyAreComparable) {
   std::set<std::string> needed;
   for (const RankingLayout& ranking : ranking_layouts()) {
     if (ranking.experiment == kId) needed.insert(ranking.needs);
   }
-  EXPECT_TRUE(needed.contains("same_bytes"));
+  EXPECT_TRUE(needed.contains("cavities_kept"));
   EXPECT_TRUE(needed.contains("same_error"));
 }
 
 class Compared : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Types, Compared,
                          testing::Values("heightmap", "layered_stack", "voxel", "dense_voxel", "implicit",
-                                         "drill", "ght"),
+                                         "drill", "ght", "tin"),
                          [](const auto& at) { return std::string(at.param); });
 
 TEST_P(Compared, HoldsHeights) {
-  const Record found = measure(GetParam(), "fractal", 0);
+  const Record found = measure(GetParam(), "fractal");
   EXPECT_EQ(value(found, "bytes"), value(found, "heap_bytes"));
   EXPECT_EQ(value(found, "payload") + value(found, "index") + value(found, "slack"), value(found, "bytes"));
   EXPECT_EQ(value(found, "loaded_differs"), 0);
@@ -95,63 +94,28 @@ TEST_P(Compared, HoldsHeights) {
 }
 
 TEST_P(Compared, HoldsSolids) {
-  const Record found = measure(GetParam(), "caves", 0);
+  const Record found = measure(GetParam(), "caves");
   EXPECT_EQ(value(found, "bytes"), value(found, "heap_bytes"));
   EXPECT_GT(value(found, "cavities"), 0);
   const double lost = value(found, "cavities_lost");
   EXPECT_GE(lost, 0);
   EXPECT_LE(lost, 1);
   // 24 cells are too coarse for the implicit surface's kernel, and a tree takes overhangs from events alone.
-  if (GetParam() == "heightmap" || GetParam() == "drill") {
+  if (GetParam() == "heightmap" || GetParam() == "drill" || GetParam() == "tin") {
     EXPECT_GT(lost, 0.9);
   } else if (GetParam() != "implicit" && GetParam() != "ght") {
     EXPECT_LT(lost, 0.6);
   }
 }
 
-TEST_P(Compared, TakesTheBytesAllowed) {
-  const Record found = measure(GetParam(), "fractal", 0.2);
-  EXPECT_EQ(value(found, "fits"), 1);
-  EXPECT_LE(value(found, "file_bytes"), 0.2 * (65 * 65 * 4 + 200));
-  EXPECT_LE(value(found, "of_budget"), 1);
-  EXPECT_GT(value(found, "of_budget"), GetParam() == "drill" ? 0.4 : 0.85);
-  EXPECT_EQ(value(found, "same_bytes"), value(found, "of_budget") >= 0.85 ? 1 : 0);
-  EXPECT_EQ(found.find("smallest_of_budget"), nullptr);
-  EXPECT_GT(value(found, "rmse"), 0);
-}
-
-TEST_P(Compared, TakesMoreColumnsOfASolidWhereTheBytesAllow) {
-  if (GetParam() == "drill") GTEST_SKIP() << "drills sample the columns of the scene";
-  // 24² columns of a type without overhangs take less than half of these bytes.
-  const Record found = measure(GetParam(), "caves", 0.35);
-  // From 16 to 17 columns OpenVDB needs a third leaf along each side.
-  EXPECT_GT(value(found, "of_budget"), GetParam() == "voxel" ? 0.7 : 0.85);
-  EXPECT_LE(value(found, "of_budget"), 1);
-  EXPECT_LE(value(found, "setting"), 48);
-  if (GetParam() == "heightmap" || GetParam() == "ght") {
-    EXPECT_GT(value(found, "setting"), 24);
-  }
-}
-
-TEST(ComparedAtBytes, ATreeWithEventsHasNoSmallFileAndSaysHowLargeItsSmallestIs) {
-  const Record found = measure("ght", "sequence", 0.2);
-  EXPECT_EQ(value(found, "fits"), 0);
-  EXPECT_EQ(value(found, "same_bytes"), 0);
-  EXPECT_GT(value(found, "smallest_of_budget"), 1);
-  EXPECT_EQ(found.find("file_bytes"), nullptr);
-  const Metric& bytes = *found.find("tried_bytes");
-  EXPECT_NEAR(value(found, "smallest_of_budget") * 0.2 * 24 * 24 * 4, std::ranges::min(bytes.samples),
-              0.1 * std::ranges::min(bytes.samples));
-}
-
 TEST(ComparedAtErrors, ATreeWithEventsIsNotCalledEquallyWrongWhereCoarserOnesAreRefused) {
-  const Record found = measure("ght", "sequence", 0, 0.05);
+  const Record found = measure("ght", "sequence", 0.05);
   EXPECT_LT(value(found, "of_asked"), 0.9);
   EXPECT_EQ(value(found, "same_error"), 0);
 }
 
 TEST_P(Compared, HasTheErrorAsked) {
-  const Record found = measure(GetParam(), "fractal", 0, 0.03);
+  const Record found = measure(GetParam(), "fractal", 0.03);
   // On 65 samples the kernel's width and the drills' windows are long against the ground's features.
   if (GetParam() == "implicit" || GetParam() == "drill") {
     EXPECT_EQ(value(found, "same_error"), 0);
@@ -164,16 +128,18 @@ TEST_P(Compared, HasTheErrorAsked) {
   EXPECT_EQ(value(found, "same_error"), value(found, "of_asked") >= 0.9 ? 1 : 0);
   EXPECT_LT(value(found, "file_bytes"), 65 * 65 * 4);
   EXPECT_EQ(value(found, "bytes"), value(found, "heap_bytes"));
-  // What was tried brackets the error, and the file is one of those tried.
-  const Metric &bytes = *found.find("tried_bytes"), &errors = *found.find("tried_rmse");
-  ASSERT_EQ(bytes.samples.size(), errors.samples.size());
-  EXPECT_EQ(found.find("tried_volume_error")->samples.size(), errors.samples.size());
-  EXPECT_GT(std::ranges::max(errors.samples), value(found, "rmse") / value(found, "of_asked"));
-  EXPECT_GE(std::ranges::count(bytes.samples, value(found, "file_bytes")), 1);
+}
+
+TEST(ComparedAtErrors, AtTheErrorOfTheRankingsAllIsMeasured) {
+  const Record ranked = measure("heightmap", "fractal", 0.02), other = measure("heightmap", "fractal", 0.03);
+  for (const char* const metric : {"mesh_time", "rays_above", "dig_triangles", "event_time"}) {
+    EXPECT_NE(ranked.find(metric), nullptr) << metric;
+    EXPECT_EQ(other.find(metric), nullptr) << metric;
+  }
 }
 
 TEST(ComparedAtErrors, ATypeThatCannotReachAnErrorHasNoFile) {
-  const Record found = measure("implicit", "fractal", 0, 1e-5);
+  const Record found = measure("implicit", "fractal", 1e-5);
   EXPECT_EQ(value(found, "same_error"), 0);
   EXPECT_GT(value(found, "least_of_relief"), 1e-5);
   for (const char* const metric : {"file_bytes", "bytes", "build_time", "rmse", "of_asked"}) {
@@ -182,7 +148,7 @@ TEST(ComparedAtErrors, ATypeThatCannotReachAnErrorHasNoFile) {
 }
 
 TEST_P(Compared, MeshesAgainOnlyWhatAnEditChanged) {
-  const Record found = measure(GetParam(), "fractal", 0);
+  const Record found = measure(GetParam(), "fractal");
   const double all = value(found, "triangles");
   for (const char* const metric : {"dig_triangles", "fill_triangles", "event_triangles"}) {
     EXPECT_GT(value(found, metric), 0) << metric;
@@ -196,7 +162,7 @@ TEST_P(Compared, MeshesAgainOnlyWhatAnEditChanged) {
 }
 
 TEST_P(Compared, TakesTheEventOfTheTree) {
-  const Record found = measure(GetParam(), "canyon", 0, 0, 96);
+  const Record found = measure(GetParam(), "canyon", 0, 96);
   const bool editable = representation(GetParam()).traits.editable, tree = GetParam() == "ght";
   EXPECT_EQ(value(found, "rebuilt"), editable ? 0 : 1);
   EXPECT_EQ(value(found, "event_rebuilt"), editable || tree ? 0 : 1);
@@ -217,7 +183,7 @@ TEST(ComparedSpheres, AreNotDugIntoGroundLowerThanItsCells) {
     std::string text = "ncols 33\nnrows 33\nxllcorner 0\nyllcorner 0\ncellsize 100\n";
     for (int i = 0; i < 33 * 33; ++i) text += i == 16 * 33 + 16 ? std::string(highest) + " " : "0 ";
     write_file(file, std::string_view(text));
-    const Record found = measure("layered_stack", file.string(), 0);
+    const Record found = measure("layered_stack", file.string());
     EXPECT_EQ(found.find("dig_triangles") != nullptr, edits) << highest;
     EXPECT_EQ(found.find("event_triangles") != nullptr, edits) << highest;
     EXPECT_NE(found.find("triangles"), nullptr);
@@ -226,7 +192,7 @@ TEST(ComparedSpheres, AreNotDugIntoGroundLowerThanItsCells) {
 }
 
 TEST(ComparedSpheres, AreDugIntoTreesBuiltAgainWithTheColumnsOfTheScene) {
-  const Record found = measure("ght", "canyon", 0, 0, 96);
+  const Record found = measure("ght", "canyon", 0, 96);
   EXPECT_EQ(value(found, "rebuilt"), 1);
   // No sample of the tree of events is left: all triangles are new, two per square of the top and of the
   // floor and per edge of the border.
@@ -237,7 +203,7 @@ TEST(ComparedSpheres, AreDugIntoTreesBuiltAgainWithTheColumnsOfTheScene) {
 }
 
 TEST_P(Compared, TimesEditsOftenEnoughForIntervals) {
-  const Record found = measure(GetParam(), "fractal", 0);
+  const Record found = measure(GetParam(), "fractal");
   for (const char* const metric : {"dig_time", "fill_time", "event_time"}) {
     ASSERT_NE(found.find(metric), nullptr) << metric;
     EXPECT_GE(found.find(metric)->samples.size(), 5U) << metric;
