@@ -325,8 +325,9 @@ float RayIndex::distance(const glm::vec3& point, const TriangleMesh& mesh) const
   struct Nearest {
     glm::vec3 point;
     const TriangleMesh& mesh;
+    float rounding;
     float squared = std::numeric_limits<float>::infinity();
-  } nearest{point, mesh};
+  } nearest{point, mesh, 1e-5F * glm::length(point)};
   const auto visit = [](RTCPointQueryFunctionArguments* at) {
     auto& nearest = *static_cast<Nearest*>(at->userPtr);
     const std::uint32_t* const k = &nearest.mesh.indices[3 * std::size_t{at->primID}];
@@ -334,7 +335,7 @@ float RayIndex::distance(const glm::vec3& point, const TriangleMesh& mesh) const
     const float squared = squared_distance(nearest.point, p[k[0]], p[k[1]], p[k[2]]);
     if (squared >= nearest.squared) return false;
     nearest.squared = squared;
-    at->query->radius = std::sqrt(squared) * 1.00001F;  // so that rounding leaves no nearer one out
+    at->query->radius = std::sqrt(squared) + nearest.rounding;  // which so leaves no nearer one out
     return true;
   };
   RTCPointQuery query{point.x, point.y, point.z, 0, nearest.squared};
