@@ -18,6 +18,7 @@ constexpr std::array<char, 8> kMagic = {'T', 'e', 'r', 'r', 'a', 'R', 'e', 'p'};
 constexpr std::uint32_t kVersion = 2;
 constexpr int kLevel = 9;  // zstd level, the same for all methods
 constexpr std::size_t kChecksum = 32;
+constexpr std::size_t kNameBytes = 16;  // at least, so that equal content takes equal bytes
 // A zstd block of 128 KiB takes at least 4 bytes: no valid file unpacks to more than this many times its
 // size.
 constexpr std::uint64_t kLargestRatio = 1 << 15;
@@ -52,7 +53,9 @@ std::size_t save_representation(const std::filesystem::path& path, const Represe
   const std::vector<std::byte> packed = compress(raw.bytes());
   file.put(kMagic);
   file.put(kVersion);
-  file.put_text(type.name);
+  std::string name(type.name);
+  name.resize(std::max(name.size(), kNameBytes), '\0');
+  file.put_text(name);
   file.put(static_cast<std::uint8_t>(encoded));
   file.put(static_cast<std::uint64_t>(raw.bytes().size()));
   file.put(static_cast<std::uint64_t>(packed.size()));
@@ -79,7 +82,8 @@ Loaded load_representation(std::span<const std::byte> file, const std::string& o
     in.fail("the checksum does not match the content");
   }
   Loaded loaded;
-  const std::string name = in.get_text();
+  std::string name = in.get_text();
+  name.resize(std::min(name.find('\0'), name.size()));
   const auto types = representations();
   const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == name; });
   if (type == types.end()) in.fail(fmt::format("unknown representation '{}'", name));

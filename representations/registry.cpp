@@ -24,8 +24,10 @@ constexpr GrowthTheory kAllVoxels{
     .build = kVoxels, .bytes = kVoxels, .query = kLevels, .mesh = kVoxels, .ray = kLevels};
 
 // What a search for the best files varies.
-constexpr FileKnob kStepKnob[] = {{"step", 0x1p-11, 0x1p-4, FileKnob::kRelief}};
-constexpr FileKnob kImplicitKnobs[] = {kStepKnob[0], {"kernel"}};
+constexpr FileKnob kStep{"step", 0x1p-11, 0x1p-4, FileKnob::kRelief, 0.5};
+constexpr FileKnob kStepOfSolids{"step", 0x1p-11, 0x1p-4, FileKnob::kRelief, 0.5, true};
+constexpr FileKnob kStepKnob[] = {kStep}, kHeightKnobs[] = {kStepOfSolids};
+constexpr FileKnob kImplicitKnobs[] = {kStep, {"kernel"}, {"radius", 0.75, 4, FileKnob::kColumn}};
 constexpr FileKnob kDrillKnobs[] = {{"tau", 0x1p-15, 0x1p-8, FileKnob::kSamples},
                                     {"w", 3, 24},
                                     {"k", 4, 40},
@@ -33,9 +35,9 @@ constexpr FileKnob kDrillKnobs[] = {{"tau", 0x1p-15, 0x1p-8, FileKnob::kSamples}
                                     {"monotone_profiles"},
                                     {"adaptive_k"},
                                     {"interpolate_untouched"},
-                                    {"quantum", 0x1p-12, 0x1p-4, FileKnob::kRelief}};
-constexpr FileKnob kTinKnobs[] = {{"max_error", 0x1p-12, 0x1p-3, FileKnob::kRelief}};
-constexpr FileKnob kMeshKnobs[] = {{"leave_out", 0, 3}};
+                                    {"quantum", 0x1p-12, 0x1p-4, FileKnob::kRelief, 0.5},
+                                    kStepOfSolids};
+constexpr FileKnob kTinKnobs[] = {{"max_error", 0x1p-12, 0x1p-3, FileKnob::kRelief}, kStepOfSolids};
 
 std::vector<RepresentationType>& table() {
   static std::vector<RepresentationType> types = {
@@ -48,7 +50,9 @@ std::vector<RepresentationType>& table() {
        Heightmap::build,
        Heightmap::load,
        Heightmap::decode,
-       kPerColumn},
+       kPerColumn,
+       {},
+       kHeightKnobs},
       {"layered_stack",
        "layered stack",
        "a stack of material runs per column, in flat tiles",
@@ -118,7 +122,9 @@ std::vector<RepresentationType>& table() {
        Ght::build,
        Ght::load,
        Ght::decode,
-       kPerColumn},
+       kPerColumn,
+       {},
+       kHeightKnobs},
       {"tin",
        "TIN",
        "a triangulated irregular network by greedy insertion",
@@ -142,7 +148,7 @@ std::vector<RepresentationType>& table() {
        ProceduralMesh::decode,
        kPerColumn,
        {},
-       kMeshKnobs},
+       kHeightKnobs},
   };
   return types;
 }

@@ -147,8 +147,11 @@ struct GrowthTheory {
 // flag and a choice take all their values.
 struct FileKnob {
   std::string_view parameter;
-  double low = 0, high = 0;                         // as multiples of `of`
-  enum Unit { kOne, kRelief, kSamples } of = kOne;  // kSamples: all samples of the ground
+  double low = 0, high = 0;  // as multiples of `of`; both 0 of a flag and a choice
+  // kColumn: the distance between columns at the resolution that is searched with it; kSamples: their number.
+  enum Unit { kOne, kRelief, kColumn, kSamples } of = kOne;
+  double error = 1;          // metres by which heights change per metre of a knob of kRelief
+  bool solids_only = false;  // has no effect on heights
 };
 
 struct RepresentationType {

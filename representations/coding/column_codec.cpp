@@ -7,6 +7,7 @@
 
 #include "representations/coding/height_codec.h"
 #include "representations/coding/range_coder.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {
@@ -150,12 +151,16 @@ void encode_columns(const ColumnGrid& grid, const ColumnsOfRuns& columns, ByteSi
 
 ColumnsOfRuns decode_columns(ByteSource& in, ColumnGrid& grid) {
   grid = ColumnGrid::load(in);
+  if (!(grid.edge_y(0) < grid.edge_y(1) && grid.edge_y(grid.levels - 1) < grid.edge_y(grid.levels)))
+    in.fail("levels thinner than floats tell apart");
   const std::vector<float> tops = decode_heights(in, grid.width, grid.depth);
   const std::vector<std::byte> bytes = in.get_array<std::byte>(in.get<std::uint64_t>());
   RangeDecoder coder(bytes, in);
   ColumnCoder<RangeDecoder> code(coder);
   ColumnsOfRuns columns;
+  const std::size_t most = std::min<std::size_t>(available_memory() / (2 * sizeof(Run)), UINT32_MAX);
   for (std::size_t c = 0; c < grid.columns(); ++c) {
+    if (columns.runs.size() > most) in.fail("more runs than fit the memory");
     if (!std::isnan(tops[c])) {
       if (!(tops[c] >= 1 && tops[c] <= static_cast<float>(grid.levels)))
         in.fail("a column's height is impossible");

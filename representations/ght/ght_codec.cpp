@@ -153,9 +153,12 @@ void encode(const Tree& tree, double largest_error, ByteSink& out) {
 }
 
 Tree decode_tree(ByteSource& in) {
+  const auto floor = in.get<float>(), ceiling = in.get<float>();
+  if (!(floor <= ceiling)) in.fail("invalid bounds");
   Tree tree = Tree::load(in);
   for (const GroundedHeightmap& node : tree.nodes()) {
-    const std::vector<float> heights = decode_heights(in, node.columns, node.rows);
+    std::vector<float> heights = decode_heights(in, node.columns, node.rows);
+    if (node.aligned) clamp_heights(heights, floor, ceiling);
     for (CellId c = node.first; c < node.first + node.cells(); ++c) {
       const float height = heights[c - node.first];
       if (std::isnan(height) == (tree.kind(c) == CellKind::kHeight))
@@ -299,6 +302,7 @@ void Ght::save(ByteSink& out) const {
 }
 
 bool Ght::encode(double largest_error, ByteSink& out) const {
+  put(out, model_.floor, model_.ceiling);
   ght::encode(model_.tree, largest_error, out);
   model_.surface.save(out);
   put(out, model_.floor, model_.ceiling);

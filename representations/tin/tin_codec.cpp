@@ -7,6 +7,7 @@
 
 #include "representations/coding/range_coder.h"
 #include "representations/tin/triangle_plane.h"
+#include "terrain/memory.h"
 
 namespace terrabench::tin {
 namespace {
@@ -37,10 +38,11 @@ class TinCoder {
   TinCoder(Coder& coder, int width, int depth, double lowest, double step)
       : coder_(coder), width_(width), depth_(depth), lowest_(lowest), step_(step) {}
 
-  // Calls is_vertex(sample) where an encoder knows; returns all vertices in rows.
+  // Calls is_vertex(sample) where an encoder knows; returns all vertices in rows. `source`: of a decoder.
   template <class IsVertex>
-  std::vector<Sample> vertices(const IsVertex& is_vertex) {
+  std::vector<Sample> vertices(const IsVertex& is_vertex, const ByteSource* source = nullptr) {
     std::vector<Sample> all;
+    const std::size_t most = available_memory() / kBytesPerVertex;
     std::array<Occupied, 3> rows{Occupied(width_), Occupied(width_), Occupied(width_)};
     for (int j = 0; j < depth_; ++j) {
       auto& [here, north, beyond] = rows;
@@ -53,6 +55,7 @@ class TinCoder {
         here[i] = corner || code_bit(coder_, model, is_vertex(s)) ? 1 : 0;
         if (here[i] != 0) all.push_back(s);
       }
+      if (source != nullptr && all.size() > most) source->fail("more vertices than fit the memory");
       std::rotate(rows.begin(), rows.end() - 1, rows.end());
       rows[0] = Occupied(width_);
     }
@@ -130,6 +133,7 @@ class TinCoder {
   }
 
   static constexpr int kSizes = 16;
+  static constexpr std::size_t kBytesPerVertex = 100;  // of a triangulation while it is built
 
   Coder& coder_;
   int width_, depth_;
@@ -186,7 +190,7 @@ Approximation decode(ByteSource& in, int width, int depth) {
   const std::vector<std::byte> bytes = in.get_array<std::byte>(in.get<std::uint64_t>());
   RangeDecoder coder(bytes, in);
   TinCoder<RangeDecoder> code(coder, width, depth, lowest, step);
-  const std::vector<Sample> vertices = code.vertices([](Sample) { return false; });
+  const std::vector<Sample> vertices = code.vertices([](Sample) { return false; }, &in);
   Approximation built = code.heights(vertices, [](Sample) { return 0; });
   if (with_holes == 1) {
     built.holes.resize(built.surface.triangles().size());

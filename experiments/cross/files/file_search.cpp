@@ -32,9 +32,14 @@ class Search {
       : scene_(scene), type_(type), progress_(progress), relief_(relief_of(scene)) {
     const auto& heights = scene.source.heights;
     columns_ = heights ? std::max(heights->width, heights->depth) : scene.options.resolution;
+    samples_ = heights ? static_cast<double>(heights->heights.size())
+                       : static_cast<double>(columns_) * static_cast<double>(columns_);
+    for (const FileKnob& knob : type.file_knobs) {
+      if (!heights || !knob.solids_only) knobs_.push_back(knob);
+    }
   }
 
-  std::size_t knobs() const { return 2 + type_.file_knobs.size(); }
+  const std::vector<FileKnob>& knobs() const { return knobs_; }
 
   // The type's own settings at the ground's own resolution, with metres to be added by encode() and by the
   // type.
@@ -44,8 +49,8 @@ class Search {
     };
     Setting at{of_relief(added, kLeastError, kMostError), 1};
     const Parameters fallback(type_.parameters);
-    for (const FileKnob& knob : type_.file_knobs) {
-      at.push_back(knob.of == FileKnob::kRelief ? of_relief(built, knob.low, knob.high)
+    for (const FileKnob& knob : knobs_) {
+      at.push_back(knob.of == FileKnob::kRelief ? of_relief(built / knob.error, knob.low, knob.high)
                                                 : place_of_fallback(knob, fallback));
     }
     return at;
@@ -59,12 +64,13 @@ class Search {
     const auto columns = static_cast<std::int64_t>(std::lround(between(kCoarsest, 1, at[1]) * columns_));
     file.parameters =
         scene_.parameters(type_, columns < columns_ ? std::max<std::int64_t>(columns, 4) : std::int64_t{0});
-    for (std::size_t k = 0; k < type_.file_knobs.size(); ++k)
-      set(type_.file_knobs[k], at[k + 2], file.parameters);
+    const double column = scene_.cell * static_cast<double>(columns_) / static_cast<double>(columns);
+    for (std::size_t k = 0; k < knobs_.size(); ++k) set(knobs_[k], at[k + 2], column, file.parameters);
     try {
       const auto read = through_file(scene_, type_, file.parameters, file.within, file.bytes, progress_);
       const Differences found = top_and_volume_differences(*read, scene_.source, scene_.lines);
-      if (found.columns == 0) return {};
+      // Errors of height leave out columns that the type lost or added.
+      if (found.columns == 0 || (scene_.source.heights && found.lost_columns > 0)) return {};
       file.largest = found.largest;
       file.rmse = found.rmse;
       file.volume_error = 1 - found.volume_iou.value_or(1);
@@ -76,9 +82,17 @@ class Search {
   }
 
  private:
-  double unit(const FileKnob& knob) const {
-    const auto columns = static_cast<double>(columns_);
-    return knob.of == FileKnob::kRelief ? relief_ : knob.of == FileKnob::kSamples ? columns * columns : 1.0;
+  double unit(const FileKnob& knob, double column) const {
+    switch (knob.of) {
+      case FileKnob::kRelief:
+        return relief_;
+      case FileKnob::kColumn:
+        return column;
+      case FileKnob::kSamples:
+        return samples_;
+      default:
+        return 1;
+    }
   }
 
   double place_of_fallback(const FileKnob& knob, const Parameters& fallback) const {
@@ -89,13 +103,13 @@ class Search {
     const double number = std::holds_alternative<double>(spec->fallback)
                               ? std::get<double>(spec->fallback)
                               : static_cast<double>(std::get<std::int64_t>(spec->fallback));
-    return std::clamp(place(number / unit(knob), knob.low, knob.high), 0.0, 1.0);
+    return std::clamp(place(number / unit(knob, scene_.cell), knob.low, knob.high), 0.0, 1.0);
   }
 
-  void set(const FileKnob& knob, double at, Parameters& parameters) const {
+  void set(const FileKnob& knob, double at, double column, Parameters& parameters) const {
     const auto& specs = parameters.specs();
     const auto spec = std::ranges::find(specs, knob.parameter, &ParameterSpec::name);
-    const double number = between(knob.low, knob.high, at) * unit(knob);
+    const double number = between(knob.low, knob.high, at) * unit(knob, column);
     const auto one_of = [&](std::size_t n) {
       return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
     };
@@ -111,8 +125,9 @@ class Search {
   const Scene& scene_;
   const RepresentationType& type_;
   Progress& progress_;
-  double relief_;
+  double relief_, samples_ = 0;
   std::int64_t columns_;
+  std::vector<FileKnob> knobs_;
 };
 
 // Point k of a sequence that fills the cube evenly (Roberts 2018), the middle first.
@@ -150,7 +165,7 @@ std::vector<const Made*> best(const std::vector<Made>& all, FileError error) {
 
 class Variation {
  public:
-  Variation(const RepresentationType& type, std::uint64_t seed) : type_(type), random_(seed) {}
+  Variation(const std::vector<FileKnob>& knobs, std::uint64_t seed) : knobs_(knobs), random_(seed) {}
 
   // Near one of the best files.
   Setting vary(const std::vector<const Made*>& best) {
@@ -177,8 +192,8 @@ class Variation {
     };
     move(at[0], std::log(kMostError / kLeastError), coarser);
     if (coarser < 0) move(at[1], -std::log(kCoarsest), -0.5 * coarser);
-    for (std::size_t k = 0; k < type_.file_knobs.size(); ++k) {
-      const FileKnob& knob = type_.file_knobs[k];
+    for (std::size_t k = 0; k < knobs_.size(); ++k) {
+      const FileKnob& knob = knobs_[k];
       if (knob.of == FileKnob::kRelief) move(at[k + 2], std::log(knob.high / knob.low), coarser);
     }
     return at;
@@ -188,12 +203,14 @@ class Variation {
   double share() { return unit_of(random_.next()); }
   double normal() { return std::sqrt(-2 * std::log(1 - share())) * std::cos(2 * std::numbers::pi * share()); }
   void disturb(Setting& at, double spread) {
-    for (double& x : at) {
-      if (share() < 0.6) x = std::clamp(x + spread * normal(), 0.0, 1.0);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const bool choice = k >= 2 && knobs_[k - 2].high == 0;
+      if (choice && share() < spread) at[k] = share();
+      if (!choice && share() < 0.6) at[k] = std::clamp(at[k] + spread * normal(), 0.0, 1.0);
     }
   }
 
-  const RepresentationType& type_;
+  const std::vector<FileKnob>& knobs_;
   SplitMix random_;
 };
 
@@ -239,17 +256,17 @@ std::vector<BuiltFile> search_files(const Scene& scene, const RepresentationType
   const Search search(scene, type, progress);
   const FileError error = scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error;
   std::vector<Made> all;
-  Variation variation(type, scene.options.seed);
+  Variation variation(search.knobs(), scene.options.seed);
   for (std::size_t k = 0, aimed = 0; k < static_cast<std::size_t>(builds); ++k) {
     const auto next = [&]() -> Setting {
       const std::size_t evenly = (static_cast<std::size_t>(builds) + 3) / 4;
-      if (k < evenly) return spread(k, search.knobs());
+      if (k < evenly) return spread(k, 2 + search.knobs().size());
       if (k < evenly + 2 * aims.size()) {
         const double metres = search.metres(aims[(k - evenly) / 2]),
                      built = (k - evenly) % 2 == 0 ? 0.05 : 0.6;
         return search.own((1 - built) * metres, built * metres);
       }
-      if (all.empty()) return spread(k, search.knobs());
+      if (all.empty()) return spread(k, 2 + search.knobs().size());
       if (k % 2 == 0) return variation.aim(best(all, error), error, aims[aimed++ % aims.size()]);
       // By turns for both errors, so that both curves are searched.
       return variation.vary(best(all, k % 4 == 1 ? error : &BuiltFile::rmse));

@@ -28,8 +28,9 @@ const std::array kSpecs{
 };
 
 // Percent of the relief for the largest error of heights; percent of the volume that differs for solids.
-constexpr std::array kHeightErrors{0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
-constexpr std::array kSolidErrors{1.0, 3.0, 10.0};
+// The search aims at them in this order, first at those that are ranked.
+constexpr std::array kHeightErrors{1.0, 0.1, 3.0, 0.3, 10.0, 0.03};
+constexpr std::array kSolidErrors{3.0, 1.0, 10.0};
 constexpr std::array kShares{1.0, 5.0, 20.0};  // percent of the ground's own bytes
 
 struct Format {
@@ -50,7 +51,7 @@ std::vector<Case> cases(const RunOptions& options) {
                         {{"representation", std::string(representation)},
                          {"builds", std::int64_t{paper ? 120 : 24}},
                          {"size", std::int64_t{paper ? 513 : 257}},
-                         {"resolution", std::int64_t{paper ? 128 : 64}},
+                         {"resolution", std::int64_t{64}},
                          {"lines", std::int64_t{paper ? 211 : 101}}}},
                        terrain});
     };
@@ -93,9 +94,10 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
   std::vector<double> aims;
   for (const double percent : percents) aims.push_back(percent / 100 * unit);
   const std::vector<BuiltFile> files = search_files(scene, type, builds, aims, progress);
-  recorder.add("files", "", static_cast<double>(files.size()));
   if (files.empty()) throw SkippedCase("the type cannot hold this ground at any setting that was tried");
-  for (const BuiltFile& file : best_files(files, error)) {
+  const std::vector<BuiltFile> best = best_files(files, error);
+  recorder.add("best_files", "", static_cast<double>(best.size()));
+  for (const BuiltFile& file : best) {
     recorder.add("best_bytes", "B", static_cast<double>(file.bytes));
     recorder.add("best_error", heights ? "m" : "", file.*error);
   }
@@ -108,19 +110,20 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
   }
 }
 
-// GDAL's formats have no holes: these are filled first, and take no part in the error.
+// GDAL's formats have no holes: these are filled first.
 void measure_formats(const Scene& scene, Recorder& recorder) {
   const Heightfield field = fill_no_data(*scene.source.heights);
   const double relief = relief_of(scene), own = own_bytes(scene);
   for (const auto& [codec, name] : kGdalFormats) {
     for (const double percent : kHeightErrors) {
       const double most = percent / 100 * relief;
-      // Steps as those of our own coder, so that whole metres keep their advantage.
+      // Steps as those of our own coder: errors of whole metres are whole.
+      const double step = step_for(field.heights, most);
       const bool steps = codec == RasterCodec::kPng || codec == RasterCodec::kZstdDifferences;
       const CompressedSize size =
           codec == RasterCodec::kJpeg2000
               ? compressed_size_at(field, codec, most, &CompressedSize::largest)
-              : compressed_size(field, codec, steps ? step_for(field.heights, most) : most);
+              : compressed_size(field, codec, steps ? step : std::max(most, step / 2));
       if (size.largest > most * 1.001) continue;
       recorder.add(fmt::format("{}_bytes", name), "B", static_cast<double>(size.bytes));
       recorder.add(fmt::format("{}_error", name), "m", size.largest);
