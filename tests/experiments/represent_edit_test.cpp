@@ -62,9 +62,9 @@ TEST_F(RepresentEdit, ExplainsWhatIsWrong) {
       EXPECT_FALSE(std::filesystem::exists(folder_ / "s.tb")) << wrong;
     }
   }
-  const Outcome fixed = call("$T represent jacksboro --as heightmap --dig 1,2,3,4");
+  const Outcome fixed = call("$T represent jacksboro --as drill --dig 1,2,3,4");
   EXPECT_EQ(fixed.code, 2);
-  EXPECT_THAT(fixed.text, HasSubstr("'heightmap' cannot be edited"));
+  EXPECT_THAT(fixed.text, HasSubstr("'drill' cannot be edited"));
   const Outcome voxels = call("$T represent jacksboro --as voxel --erode 30");
   EXPECT_EQ(voxels.code, 2);
   EXPECT_THAT(voxels.text, HasSubstr("layered_stack or implicit"));
