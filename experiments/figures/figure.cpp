@@ -15,7 +15,6 @@ GlContext& Drawing::gl() {
 void draw_figure(std::span<const Figure> figures, std::string_view paper, const Case& at,
                  const RunOptions& options, Recorder& recorder) {
   const Figure& figure = figures[at.parameters.choice("figure")];
-  recorder.add("figure", "", figure.number);
   Drawing drawing(options, &recorder);
   const Sheet sheet = figure.draw(drawing);
   sheet.write(recorder.figure(fmt::format("{}.{}", paper, figure.name),

@@ -42,7 +42,7 @@ struct Figure {
   Sheet (*draw)(Drawing&);
 };
 
-// Draws the case's figure as "PAPER.NAME", and records its number as the metric "figure".
+// Draws the case's figure as "PAPER.NAME".
 void draw_figure(std::span<const Figure>, std::string_view paper, const Case&, const RunOptions&, Recorder&);
 
 // An experiment that draws the figures of a table, such as `constexpr std::array kFigures{Figure{…}, …}`.

@@ -220,7 +220,6 @@ TEST(GhtFigures, AreTheSameEveryTime) {
   const Record record = drawn("ght.event-figures", "F15", one),
                again = drawn("ght.event-figures", "F15", two);
   EXPECT_EQ(record.figures[0].caption.find("Figure 15 of the paper: a tunnel"), 0U);
-  EXPECT_EQ(record.find("figure")->samples, std::vector<double>{15});
   EXPECT_EQ(read_file(one / record.figures[0].file), read_file(two / again.figures[0].file));
 }
 

@@ -62,14 +62,12 @@ std::vector<Case> cases(const RunOptions& options) {
 }
 
 void record_smallest(const std::vector<BuiltFile>& files, FileError error, double percent, double unit,
-                     double own, Recorder& recorder) {
-  const std::string bytes = fmt::format("bytes_within_{:g}%", percent),
-                    share = fmt::format("share_within_{:g}%", percent);
+                     Recorder& recorder) {
+  const std::string bytes = fmt::format("bytes_within_{:g}%", percent);
   if (const BuiltFile* file = smallest_within(files, error, percent / 100 * unit)) {
     recorder.add(bytes, "B", static_cast<double>(file->bytes));
-    recorder.add(share, "", static_cast<double>(file->bytes) / own);
   } else {
-    recorder.undefined({bytes, share}, "no file that the search made is so close to the ground");
+    recorder.undefined({bytes}, "no file that the search made is so close to the ground");
   }
 }
 
@@ -101,7 +99,11 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
     recorder.add("best_bytes", "B", static_cast<double>(file.bytes));
     recorder.add("best_error", heights ? "m" : "", file.*error);
   }
-  for (const double percent : percents) record_smallest(files, error, percent, unit, own, recorder);
+  for (const double percent : percents) record_smallest(files, error, percent, unit, recorder);
+  // Of the error by which files are ranked.
+  if (const BuiltFile* file = smallest_within(files, error, aims.front()))
+    recorder.add(fmt::format("share_within_{:g}%", percents.front()), "",
+                 static_cast<double>(file->bytes) / own);
   if (!heights) return record_closest(files, error, "volume_error", "", own, recorder);
   record_closest(files, &BuiltFile::rmse, "rmse", "m", own, recorder);
   for (const BuiltFile& file : best_files(files, &BuiltFile::rmse)) {
@@ -130,8 +132,10 @@ void measure_formats(const Scene& scene, Recorder& recorder) {
       recorder.add(fmt::format("{}_error", name), "m", size.largest);
       recorder.add(fmt::format("{}_rmse", name), "m", size.rmse);
       recorder.add(fmt::format("{}_within_{:g}%", name, percent), "B", static_cast<double>(size.bytes));
-      recorder.add(fmt::format("{}_share_within_{:g}%", name, percent), "",
-                   static_cast<double>(size.bytes) / own);
+      if (percent == kHeightErrors.front()) {
+        recorder.add(fmt::format("{}_share_within_{:g}%", name, percent), "",
+                     static_cast<double>(size.bytes) / own);
+      }
     }
   }
 }

@@ -84,9 +84,8 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
   }
   if (found.volume_iou) {
     recorder.add("volume_iou", "", *found.volume_iou);
-    recorder.add("volume_error", "", 1 - *found.volume_iou);
   } else {
-    recorder.undefined({"volume_iou", "volume_error"},
+    recorder.undefined({"volume_iou"},
                        "neither the type nor the ground has volume on the lines on which they are compared");
   }
   if (source.heights) return;
