@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "lod/mrbsp/nearest_three.h"
 #include "lod/mrbsp/mrbsp.h"
+#include "lod/mrbsp/nearest_three.h"
 #include "lod/mrbsp/visibility/codec.h"
 #include "lod/mrbsp/visibility/line_of_sight.h"
 #include "terrain/source.h"
