@@ -1,6 +1,7 @@
 // The boundary links that the tree stores (§3.2): a hash table, and what it holds after any sequence of
 // events.
 #include <map>
+#include <memory>
 
 #include "representations/ght/boundary_links.h"
 #include "tests/representations/ght_ground.h"
@@ -102,7 +103,8 @@ TEST(GhtBoundaryLinks, AreMadeAgainOnLoading) {
 
 // All slots are counted, and few are spare.
 TEST(GhtBoundaryLinks, AreCountedInMemory) {
-  Ght ght = make_ght(rolling(65, 65));
+  const auto held = std::make_unique<Ght>(make_ght(rolling(65, 65)));  // memory() asks the allocator
+  Ght& ght = *held;
   const std::size_t fresh = ght.memory().total();
   ght.apply(events::RadialErosion{{32, 24, 32}, {12, 9, 12}});
   const Memory links = ght.model().links.memory();

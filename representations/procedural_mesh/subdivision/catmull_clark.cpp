@@ -235,7 +235,7 @@ void place_vertices(const Stencils& s, std::uint32_t vertices, const T* in, cons
 
 template <class T>
 void place_standard(const Topology& t, const Stencils& s, std::span<const T> in, std::span<T> out) {
-  assert(in.size() == t.vertices && out.size() == child_vertices(t));
+  assert(in.size() == t.vertices && out.size() == t.vertices + t.faces() + s.edges.size() / 4);
   place_faces(t, in.data(), out.data() + t.vertices);
   place_edges(s, t.vertices, in.data(), out.data(), out.data() + t.vertices + t.faces());
   place_vertices(s, t.vertices, in.data(), out.data(), out.data());
@@ -243,7 +243,7 @@ void place_standard(const Topology& t, const Stencils& s, std::span<const T> in,
 
 template <class T>
 void place_linear(const Topology& t, const Stencils& s, std::span<const T> in, std::span<T> out) {
-  assert(in.size() == t.vertices && out.size() == child_vertices(t));
+  assert(in.size() == t.vertices && out.size() == t.vertices + t.faces() + s.edges.size() / 4);
   place_faces(t, in.data(), out.data() + t.vertices);
   std::copy(in.begin(), in.end(), out.begin());
   T* const edges = out.data() + t.vertices + t.faces();
