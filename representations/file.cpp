@@ -48,7 +48,7 @@ std::vector<std::byte> decompress(std::span<const std::byte> packed, std::uint64
 std::size_t save_representation(const std::filesystem::path& path, const RepresentationType& type,
                                 const Representation& structure, std::optional<double> largest_error) {
   ByteSink raw, file;
-  const bool encoded = largest_error && structure.encode(*largest_error, raw);
+  const bool encoded = largest_error && type.decode != nullptr && structure.encode(*largest_error, raw);
   if (!encoded) structure.save(raw);
   const std::vector<std::byte> packed = compress(raw.bytes());
   file.put(kMagic);

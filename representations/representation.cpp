@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "representations/coding/column_codec.h"
 #include "representations/column_grid.h"
 #include "representations/edit_tools.h"
 #include "representations/layered_stack/thermal_erosion.h"
@@ -31,7 +32,12 @@ LineGrid lines_over(const Bounds& bounds) {
 
 }  // namespace
 
-bool Representation::encode(double, ByteSink&) const { return false; }
+bool Representation::encode(double, ByteSink& out) const {
+  const ColumnGrid* const columns = column_grid();
+  if (columns == nullptr) return false;
+  encode_columns(*columns, columns_of(*this, *columns), out);
+  return true;
+}
 
 void Representation::materials(Points where, std::span<Material> out) const {
   SpanSink sink;

@@ -22,7 +22,7 @@ double step_for(std::span<const float> heights, double largest_error);
 void encode_heights(std::span<const float> heights, int width, double step, ByteSink& out);
 // Throws bad_input for bytes that encode_heights() cannot have written for so many heights.
 std::vector<float> decode_heights(ByteSource& in, int width, int depth);
-// Back into the range that they had before they were rounded.
+// Clamps heights to the range that they had before they were rounded.
 void clamp_heights(std::span<float> heights, float lowest, float highest);
 
 }  // namespace terrabench

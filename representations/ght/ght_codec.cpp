@@ -162,7 +162,7 @@ Tree decode_tree(ByteSource& in) {
     for (CellId c = node.first; c < node.first + node.cells(); ++c) {
       const float height = heights[c - node.first];
       if (std::isnan(height) == (tree.kind(c) == CellKind::kHeight))
-        in.fail("heights are not where they belong");
+        in.fail("a cell has a height where the tree has none, or none where it has one");
       if (std::isnan(height)) continue;
       if (!sane(height)) in.fail("a height is too large");
       tree.set_height(c, height);

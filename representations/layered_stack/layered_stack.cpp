@@ -266,11 +266,6 @@ std::unique_ptr<Representation> LayeredStack::load(ByteSource& in) {
   return stack;
 }
 
-bool LayeredStack::encode(double, ByteSink& out) const {
-  encode_columns(grid_, columns_of(*this, grid_), out);
-  return true;
-}
-
 std::unique_ptr<Representation> LayeredStack::decode(ByteSource& in) {
   ColumnGrid grid;
   const ColumnsOfRuns columns = decode_columns(in, grid);

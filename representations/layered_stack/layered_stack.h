@@ -40,7 +40,6 @@ class LayeredStack final : public Representation {
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;
   void save(ByteSink&) const override;
-  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
   const ColumnGrid* column_grid() const override { return &grid_; }
 

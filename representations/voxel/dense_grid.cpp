@@ -106,11 +106,6 @@ std::unique_ptr<Representation> DenseGrid::load(ByteSource& in) {
   return built;
 }
 
-bool DenseGrid::encode(double, ByteSink& out) const {
-  encode_columns(grid_, columns_of(*this, grid_), out);
-  return true;
-}
-
 std::unique_ptr<Representation> DenseGrid::decode(ByteSource& in) {
   ColumnGrid grid;
   const ColumnsOfRuns columns = decode_columns(in, grid);

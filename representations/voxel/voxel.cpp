@@ -391,11 +391,6 @@ std::unique_ptr<Representation> Voxel::load(ByteSource& in) {
   return built;
 }
 
-bool Voxel::encode(double, ByteSink& out) const {
-  encode_columns(grid_, columns_of(*this, grid_), out);
-  return true;
-}
-
 std::unique_ptr<Representation> Voxel::decode(ByteSource& in) {
   ColumnGrid grid;
   const ColumnsOfRuns columns = decode_columns(in, grid);

@@ -34,7 +34,6 @@ class Voxel final : public Representation {
   // of the root's map and the tree objects' own blocks.
   Memory memory() const override;
   void save(ByteSink&) const override;
-  bool encode(double largest_error, ByteSink&) const override;
   Bounds bounds() const override { return grid_.bounds(); }
   const ColumnGrid* column_grid() const override { return &grid_; }
 

@@ -1,5 +1,7 @@
 #include "experiments/cross/files/file_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -186,7 +188,7 @@ class Variation {
         *std::ranges::min_element(best, {}, [&](const Made* m) { return std::abs(miss(m)); });
     const double coarser = miss(nearest) - 0.02;
     Setting at = nearest->at;
-    if (coarser > -0.02 && coarser < 0.05) disturb(at, 0.05);  // as near as it gets: others of this error
+    if (coarser > -0.02 && coarser < 0.05) disturb(at, 0.05);  // near enough: vary the other settings
     const auto move = [&](double& x, double log_range, double by) {
       x = std::clamp(x + by / log_range, 0.0, 1.0);
     };
@@ -253,7 +255,9 @@ const BuiltFile* closest_within(const std::vector<BuiltFile>& files, FileError e
 
 std::vector<BuiltFile> search_files(const Scene& scene, const RepresentationType& type, int builds,
                                     std::span<const double> aims, Progress& progress) {
-  const Search search(scene, type, progress);
+  Progress silent;  // each build is one step of the search
+  const Search search(scene, type, silent);
+  progress.begin(fmt::format("files of {}", type.name), static_cast<std::uint64_t>(builds));
   const FileError error = scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error;
   std::vector<Made> all;
   Variation variation(search.knobs(), scene.options.seed);
@@ -273,6 +277,7 @@ std::vector<BuiltFile> search_files(const Scene& scene, const RepresentationType
     };
     const Setting at = next();
     if (std::optional<BuiltFile> file = search.make(at)) all.push_back({at, std::move(*file)});
+    progress.advance();
   }
   std::vector<BuiltFile> files;
   for (Made& made : all) files.push_back(std::move(made.file));

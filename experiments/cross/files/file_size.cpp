@@ -1,5 +1,5 @@
-// How small a file keeps how much of the ground: every type with its best coder, its settings searched by the
-// same search, and the formats that GDAL writes beside them.
+// File size against error: every type with its coder, its settings chosen by the same search, beside formats
+// that GDAL writes.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,7 +7,6 @@
 
 #include "experiments/cross/files/file_search.h"
 #include "experiments/experiment.h"
-#include "experiments/ground.h"
 #include "representations/coding/height_codec.h"
 #include "terrain/heightfield.h"
 #include "terrain/sources/dem/compressed_sizes.h"
@@ -153,7 +152,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 
 }  // namespace
 
-extern const Experiment kFileSize{"cross.file-size", "How small a file keeps how much of the ground", kSpecs,
-                                  cases, measure};
+extern const Experiment kFileSize{"cross.file-size", "File size against error", kSpecs, cases, measure};
 
 }  // namespace terrabench::cross

@@ -51,8 +51,8 @@ bool is_solid(const std::string& terrain);
 // Kept until another one is asked for.
 const Scene& scene(const SceneOptions&, Progress&);
 
-// The ground as it came: 16-bit samples where whole metres fit them, else floats; of a solid the heights of
-// its columns as floats.
+// Bytes of the uncompressed ground: 16-bit samples if all heights are whole metres in their range, else
+// floats; for a solid, the heights of its columns as floats.
 double own_bytes(const Scene&);
 
 }  // namespace terrabench::cross
