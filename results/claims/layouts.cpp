@@ -204,8 +204,12 @@ RankingLayout parse_ranking(const TomlValue& node) {
   layout.id = entry.text("id");
   layout.task = entry.text("task");
   layout.where = entry.text("where");
-  layout.sentence = entry.text_or("sentence", "");
-  if (!layout.sentence.empty()) layout.brief = entry.text("brief");
+  layout.ground = entry.text_or("ground", "");
+  layout.table = entry.text_or("table", "");
+  layout.question = entry.text_or("question", "");
+  layout.headline = entry.flag("headline");
+  if (!layout.ground.empty() && (layout.table.empty() || layout.question.empty()))
+    entry.refuse("a ranking with a 'ground' needs a 'table' and a 'question'");
   layout.experiment = entry.text("experiment");
   layout.metric = entry.text("metric");
   layout.unit = entry.text_or("unit", "");

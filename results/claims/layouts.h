@@ -79,10 +79,10 @@ struct PlotLayout {
 struct RankingLayout {
   using Entry = TableLayout::Row;
   std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
-  // For the summary of findings: `sentence` names the sentence that says which method is best at this task;
-  // `brief` is the task's wording in it: "for the fewest bytes in memory". Both are empty if no sentence
-  // mentions the task.
-  std::string sentence, brief;
+  // Its place in the tables of findings (findings_table.h): the table, the row, and the column, which is a
+  // ground with a page of that id; empty: in none. A headline has a sentence above the tables, too.
+  std::string table, question, ground;
+  bool headline = false;
   std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
   std::string unit;                // that values are shown in
   bool most = false;               // the best has the most, otherwise the least

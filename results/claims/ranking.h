@@ -20,6 +20,7 @@ namespace terrabench {
 inline constexpr double kExactMargin = 1.01;
 // Both margins, as a sentence for those who read who is tied.
 std::string tie_rule();
+std::string short_factor(const Summary&);  // "1.78 ×"
 
 // One layout, filled: the entries that take part, from best to worst.
 struct Ranking {
@@ -58,12 +59,6 @@ std::optional<Ranking> rank(const RankingLayout&, const Store&, const std::strin
 // All that were measured.
 std::vector<Ranking> rank(std::span<const RankingLayout>, const Store&, const std::string& profile);
 
-// A sentence per name of RankingLayout::sentence, in the order of first use: for each of its tasks, whose
-// rankings follow each other, which method led where, and by how many times it was ahead of the next, or
-// within which factor methods are tied, with 95 % intervals: "For the most queries: on real mountains and on
-// a fractal, heightmap led (1.3 [1.2, 1.4] to 2.1 [2, 2.2] ×); on caves, drills and stacks tied (within 1.1
-// [1.05, 1.2] ×); for the least error: …".
-Facts in_short(std::span<const Ranking>);
 // A sentence per task, which joins the clauses of all its grounds.
 Facts findings(std::span<const Ranking>);
 std::string findings_json(std::span<const Ranking>);

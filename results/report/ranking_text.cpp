@@ -45,52 +45,6 @@ const Summary& factor_of(const Ranking& ranking) {
   return ranking.places[ranking.tied > 1 ? ranking.tied - 1 : 1].factor;
 }
 
-// Grounds of one task with the same outcome, a subject and a verb: "drills and stacks tied".
-struct SameOutcome {
-  std::string outcome;
-  std::vector<std::string> where;
-  bool tied = false;
-  // By which factors the best is ahead of the next, or within which the best are tied; without those of 1.
-  std::vector<Summary> factors;
-};
-
-std::string outcome_of(const Ranking& ranking) {
-  if (ranking.places.empty()) return "none took part";
-  if (!ranking.decided()) return "nothing was decided";
-  if (ranking.places.size() == 1) return ranking.places[0].label + " alone took part";
-  std::vector<std::string> best;
-  for (std::size_t i = 0; i < ranking.tied; ++i) best.push_back(ranking.places[i].label);
-  if (best.size() == 1) return best[0] + " led";
-  std::ranges::sort(best);
-  return list_of(best, ", ", " and ") + " tied";
-}
-
-void add_to(std::vector<SameOutcome>& groups, const Ranking& ranking) {
-  const std::string outcome = outcome_of(ranking);
-  auto at = std::ranges::find(groups, outcome, &SameOutcome::outcome);
-  if (at == groups.end()) at = groups.insert(at, {outcome, {}, ranking.tied > 1, {}});
-  at->where.push_back(ranking.layout->where);
-  if (!ranking.decided() || ranking.places.size() == 1) return;
-  const Summary& factor = factor_of(ranking);
-  if (factor.median != 1) at->factors.push_back(factor);
-}
-
-std::string text_of(const SameOutcome& group) {
-  const std::string text = list_of(group.where, ", ", " and ") + ", " + group.outcome;
-  if (group.factors.empty()) return text;
-  const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
-  std::string factors = fmt::format("{} to {}", factor_text(*least), factor_text(*most));
-  if (digits_of(least->median) == digits_of(most->median)) {
-    Summary all = *most;  // one factor with an interval that holds those of all grounds
-    for (const Summary& factor : group.factors) {
-      all.low = std::min(all.low, factor.low);
-      all.high = std::max(all.high, factor.high);
-    }
-    factors = factor_text(all);
-  }
-  return text + fmt::format(" ({}{} ×)", group.tied ? "within " : "", factors);
-}
-
 }  // namespace
 
 std::string Ranking::result() const {
@@ -126,34 +80,14 @@ std::string Ranking::lead() const {
   return factor.median == 1 ? "tied" : fmt::format("tied, within {} ×", factor_text(factor));
 }
 
+std::string short_factor(const Summary& factor) { return digits_of(factor.median) + " ×"; }
+
 std::string tie_rule() {
   return fmt::format(
       "Methods are called tied if the 95 % interval of that factor contains 1 or if the factor is below a "
       "margin: {} for times and rates, since two thirds of them change by less between two runs on one "
       "machine, and {} for all else, since a smaller lead is no reason to choose a method.",
       kTimingMargin, kExactMargin);
-}
-
-Facts in_short(std::span<const Ranking> rankings) {
-  Facts facts;
-  for (auto first = rankings.begin(); first != rankings.end();) {
-    const RankingLayout& layout = *first->layout;
-    std::vector<SameOutcome> groups;
-    for (; first != rankings.end() && first->layout->task == layout.task; ++first) add_to(groups, *first);
-    if (layout.sentence.empty()) continue;
-    std::vector<std::string> texts;
-    for (const SameOutcome& group : groups) texts.push_back(text_of(group));
-    const std::string clause = fmt::format("{}: {}", layout.brief, fmt::join(texts, "; "));
-    const auto line =
-        std::ranges::find(facts.lines, layout.sentence, &std::pair<std::string, std::string>::first);
-    if (line == facts.lines.end()) {
-      facts.lines.emplace_back(layout.sentence, clause);
-    } else {
-      line->second += "; " + clause;
-    }
-  }
-  for (auto& [name, text] : facts.lines) finish(text);
-  return facts;
 }
 
 Facts findings(std::span<const Ranking> rankings) {
@@ -189,6 +123,9 @@ std::string findings_json(std::span<const Ranking> rankings) {
     list.push_back({{"id", layout.id},
                     {"task", layout.task},
                     {"where", layout.where},
+                    {"table", layout.table},
+                    {"question", layout.question},
+                    {"ground", layout.ground},
                     {"experiment", layout.experiment},
                     {"metric", layout.metric},
                     {"unit", layout.unit},

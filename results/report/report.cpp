@@ -15,6 +15,7 @@
 #include "results/report/discrepancies.h"
 #include "results/report/document.h"
 #include "results/report/fill.h"
+#include "results/report/findings_table.h"
 #include "results/report/further_grounds.h"
 #include "results/report/ledger.h"
 #include "results/report/report_parts.h"
@@ -51,6 +52,8 @@ class Report {
     if (&reference_ != &store_) std::ranges::copy(reference_.faults(), std::back_inserter(all));
     return all;
   }
+
+  const std::string& findings_text() const { return findings_; }  // once it is written
 
   void write() {
     introduce();
@@ -129,31 +132,34 @@ class Report {
         true});
   }
 
+  // The main page shows the part before the heading.
   void add_findings() {
     const std::vector<Ranking> rankings = rank(ranking_layouts(), store_, results_.profile);
-    Facts facts = findings(rankings);
-    if (facts.lines.empty()) return;
+    if (rankings.empty()) return;
     write_file(out_ / "findings.json", findings_json(rankings));
-    Facts brief = in_short(rankings);
-    if (std::string standings = standings_sentence(results_); !standings.empty())
-      brief.lines.emplace_back("Papers and measurements", std::move(standings));
-    write_file(out_ / "findings.md", markdown({facts}));
-    write_file(out_ / "findings-short.md", markdown({brief}));
+    Facts lines = headlines(rankings);
+    const auto counts = count_standings(statements(results_.judgements));
+    if (const auto stated = counts.find(Group::kStated); stated != counts.end()) {
+      lines.lines.emplace_back("What the papers state in numbers or orders",
+                               counts_text(stated->second, Group::kStated) + ".");
+    }
+    Document brief{std::move(lines)};
+    for (Table& table : findings_tables(rankings)) {
+      findings_ += plain_text(table) + "\n";
+      brief.push_back(parts_.table(std::move(table), {}));
+    }
+    Document page{Heading{1, "Findings", "top"}};
+    std::ranges::copy(brief, std::back_inserter(page));
+    page.push_back(Heading{2, "Every value, with the 95 % interval of each factor", "values"});
+    page.push_back(Paragraph{tie_rule()});
+    page.push_back(findings(rankings));
+    write_page(out_, "findings", page);
     document_.push_back(Heading{2, "Findings", "findings"});
+    add(std::move(brief));
     document_.push_back(Paragraph{
-        fmt::format(
-            "Which method leads at what, from the medians of the comparisons across the papers, and where "
-            "the papers differ from what was measured. In parentheses stands by how many times the leader is "
-            "ahead of the next method, or within which factor methods are tied, in brackets the 95 % "
-            "interval "
-            "of that factor, where the figures vary. {}",
-            tie_rule()),
+        "Every value, and when methods are called tied:",
         false,
-        {{"JSON", "findings.json"}, {"Markdown", "findings.md"}}});
-    document_.push_back(std::move(brief));
-    document_.push_back(
-        Paragraph{"Every task with its measured values, and with the 95 % interval of each factor:"});
-    document_.push_back(std::move(facts));
+        {{"Findings", "findings.html"}, {"as Markdown", "findings.md"}, {"as JSON", "findings.json"}}});
   }
 
   // What was measured on grounds that no claims file names: a list of their pages, and which method is best
@@ -368,6 +374,7 @@ class Report {
   std::vector<FurtherGround> further_;
   ReportParts parts_;
   Document document_;
+  std::string findings_;
   std::vector<PageLayout> grounds_, further_pages_;  // those with a page
   std::set<std::string>
       claimed_;  // ids of pictures that belong to a claim or stand on a further ground's page
@@ -389,7 +396,7 @@ WrittenReport write_report(const Store& store, std::span<const Paper> papers, co
   Report report(store, papers, reference == nullptr ? store : *reference, folder.path());
   report.write();
   folder.publish();
-  return {target / kMark.file, report.faults()};
+  return {target / kMark.file, report.faults(), report.findings_text()};
 }
 
 }  // namespace terrabench

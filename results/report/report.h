@@ -15,6 +15,7 @@ namespace terrabench {
 struct WrittenReport {
   std::filesystem::path page;            // index.html
   std::vector<std::string> faults = {};  // why its results cannot be trusted; empty if they can
+  std::string findings = {};             // the tables of findings, for a terminal
 };
 
 // DIR/report/: index.html, report.md, ground-*.{html,md}, ledger.{html,md},

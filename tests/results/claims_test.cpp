@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "results/store/format.h"
 #include "tests/terrain/errors.h"
@@ -360,6 +362,18 @@ TEST(Claims, RefusesWithFileAndLine) {
   expect_refused(
       head + "[[claim]]\nid = \"../p\"\nwhere = \"\"\nstatement = \"\"\nclass = \"E\"\npending = \"x\"\n",
       "invalid id", 0);
+}
+
+// What a table or plot cannot say in so many words belongs into the text.
+TEST(Claims, CaptionsAreShort) {
+  const auto expect_short = [](const std::string& id, const std::string& caption) {
+    std::istringstream words(caption);
+    EXPECT_LE(std::distance(std::istream_iterator<std::string>(words), {}), 60) << id;
+  };
+  for (const Paper& paper : papers()) {
+    for (const TableLayout& table : paper.tables) expect_short(table.id, table.caption);
+    for (const PlotLayout& plot : paper.plots) expect_short(plot.id, plot.caption);
+  }
 }
 
 }  // namespace

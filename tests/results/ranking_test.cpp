@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "results/report/findings_table.h"
 #include "results/report/report.h"
 #include "results/store/record_json.h"
 #include "terrain/error.h"
@@ -16,6 +17,7 @@ namespace terrabench {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -28,8 +30,10 @@ type = [{name = "a", label = "drills"}, {name = "b", label = "voxels"}, {name = 
 each = ["ground"]
 id = "time-{ground}"
 task = "Fastest"
-sentence = "Speed"
-brief = "for the shortest time"
+table = "Speed"
+question = "Shortest time"
+ground = "{ground}"
+headline = true
 where = "{ground.where}"
 experiment = "x"
 metric = "time"
@@ -41,8 +45,6 @@ entries = [{each = ["type"], label = "{type.label}", case = "{ground}/{type}"}]
 [[ranking]]
 id = "rate-hill"
 task = "Most queries"
-sentence = "Queries"
-brief = "for the most queries"
 where = "on a hill"
 experiment = "x"
 metric = "bytes"
@@ -175,66 +177,13 @@ entries = [
   EXPECT_EQ(ranking->left_out, std::vector<std::string>{"C"});
 }
 
-TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
-  const auto line = [&] {
-    const auto [sentence, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
-    EXPECT_EQ(sentence, "Speed");
-    return text;
-  };
-  measure("hill/a", {0.010, 0.010, 0.010});
-  measure("hill/b", {0.030, 0.030, 0.030});
-  measure("sea/a", {0.010, 0.010, 0.010});
-  measure("sea/b", {0.040, 0.040, 0.040});
-  EXPECT_EQ(line(), "For the shortest time: on a hill and at sea, drills led (3 to 4 ×).");
-  measure("sea/b", {0.005, 0.005, 0.005});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels led (2 ×).");
-  measure("sea/b", {0.010, 0.010, 0.010});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, drills and voxels tied.");
-  measure("sea/b", {0.010});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, nothing was decided.");
-  measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels alone took part.");
-  measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.9);
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, none took part.");
-  measure("hill/b", {0.010, 0.010, 0.010}, 1012);
-  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second,
-            "For the most queries: on a hill, voxels led (1.012 ×).");
-}
-
-TEST_F(RankingTest, InShortEveryFactorThatVariesHasItsInterval) {
-  const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(0).second; };
-  measure("hill/a", {0.010, 0.010, 0.011});
-  measure("hill/b", {0.030, 0.030, 0.033});
-  measure("sea/a", {0.010, 0.010, 0.011});
-  measure("sea/b", {0.040, 0.040, 0.044});
-  EXPECT_EQ(line(),
-            "For the shortest time: on a hill and at sea, drills led (3 [2.73, 3.3] to 4 [3.64, 4.4] ×).");
-  measure("hill/b", {0.0120, 0.0120, 0.0121});
-  measure("sea/b", {0.0110, 0.0110, 0.0112});
-  EXPECT_EQ(line(),
-            "For the shortest time: on a hill and at sea, drills and voxels tied (within 1.1 [1, 1.12] to "
-            "1.2 [1.09, 1.21] ×).");
-}
-
 // Rounded, a factor never comes to lie on a bound that it does not have.
 TEST_F(RankingTest, FactorsHaveTheDigitsThatTellThemFromOneAndFromTheMargins) {
-  const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(0).second; };
   measure("hill/a", {0.010, 0.010, 0.010});
   measure("hill/b", {0.01003, 0.013, 0.015});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (1.3 [1.003, 1.5] ×).");
+  EXPECT_THAT(sentence(), HasSubstr("by a factor of 1.3 [1.003, 1.5]"));
   measure("hill/b", {0.01003, 0.01249, 0.015});
-  EXPECT_EQ(line(),
-            "For the shortest time: on a hill, drills and voxels tied (within 1.249 [1.003, 1.5] ×).");
-}
-
-// As where two grounds have the same median by chance.
-TEST_F(RankingTest, InShortEqualFactorsHaveOneInterval) {
-  measure("hill/a", {0.010, 0.010, 0.010});
-  measure("hill/b", {0.029, 0.030, 0.031});
-  measure("sea/a", {0.010, 0.010, 0.010});
-  measure("sea/b", {0.028, 0.030, 0.030});
-  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(0).second,
-            "For the shortest time: on a hill and at sea, drills led (3 [2.8, 3.1] ×).");
+  EXPECT_THAT(sentence(), HasSubstr("tied, within a factor of 1.249 [1.003, 1.5]"));
 }
 
 // The margins decide on times, rates and all else, each with its reason.
@@ -244,32 +193,13 @@ TEST(Ranking, TheRuleOfTiesGivesBothMarginsWithTheirReasons) {
 }
 
 TEST_F(RankingTest, AShortLeadOfExactFiguresIsATie) {
-  const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(1).second; };
   measure("hill/a", {0.010, 0.010, 0.010}, 1000);
   measure("hill/b", {0.010, 0.010, 0.010}, 1009);
-  EXPECT_EQ(line(), "For the most queries: on a hill, drills and voxels tied (within 1.009 ×).");
   EXPECT_EQ(sentence(1),
             "Most queries: On a hill: voxels (1.009 kB) and drills (1 kB) are tied, within a factor of "
             "1.009, less than the margin of 1.01.");
   measure("hill/b", {0.010, 0.010, 0.010}, 1010);
-  EXPECT_EQ(line(), "For the most queries: on a hill, voxels led (1.01 ×).");
-}
-
-TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
-  measure("hill/a", {0.010, 0.010, 0.010});
-  measure("hill/b", {0.030, 0.030, 0.030});
-  EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.size(), 2U);
-  layouts_[2].sentence = layouts_[0].sentence;
-  const Facts together = in_short(rank(layouts_, store_, "quick"));
-  ASSERT_EQ(together.lines.size(), 1U);
-  EXPECT_EQ(together.lines[0].second,
-            "For the shortest time: on a hill, drills led (3 ×); for the most queries: on a hill, drills and "
-            "voxels "
-            "tied.");
-  layouts_[2].sentence = "";
-  const Facts one = in_short(rank(layouts_, store_, "quick"));
-  ASSERT_EQ(one.lines.size(), 1U);
-  EXPECT_EQ(one.lines[0].second, "For the shortest time: on a hill, drills led (3 ×).");
+  EXPECT_THAT(sentence(1), HasSubstr("voxels (1.01 kB), ahead of drills (1 kB) by a factor of 1.01"));
 }
 
 TEST_F(RankingTest, WithinTheIntervalItIsATie) {
@@ -339,15 +269,53 @@ TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
   EXPECT_THROW(paper_of("[[ranking]]\nid = \"x\"\n"), Error);
 }
 
+// A row per question, a column per ground, who is best in each cell, and on how many grounds.
+TEST_F(RankingTest, ATableOfFindingsHasARowPerQuestionAndAColumnPerGround) {
+  const auto tables = [&] { return findings_tables(rank(layouts_, store_, "quick")); };
+  const auto row = [&] {
+    std::vector<std::string> texts;
+    const std::vector<Cell> cells = tables().at(0).rows.at(0);
+    for (const Cell& cell : cells) texts.push_back(cell.text);
+    return texts;
+  };
+  measure("hill/a", {0.010, 0.010, 0.010});
+  measure("hill/b", {0.030, 0.030, 0.030});
+  measure("sea/a", {0.010, 0.010, 0.010});
+  measure("sea/b", {0.040, 0.040, 0.040});
+  ASSERT_EQ(tables().size(), 1U) << "queries have no place in a table";
+  EXPECT_EQ(tables()[0].title, "Speed");
+  EXPECT_THAT(row(), ElementsAre("Shortest time", "drills 3 ×", "drills 4 ×", "drills on 2 of 2 grounds"));
+  EXPECT_EQ(tables()[0].rows[0][2].link, "ground-sea.*");
+  measure("sea/b", {0.005, 0.005, 0.005});
+  EXPECT_THAT(row(), ElementsAre("Shortest time", "drills 3 ×", "voxels 2 ×",
+                                 "drills on 1 of 2 grounds, voxels on 1"));
+  EXPECT_EQ(tables()[0].id, "findings-speed");
+  const Facts lines = headlines(rank(layouts_, store_, "quick"));
+  ASSERT_EQ(lines.lines.size(), 1U);
+  EXPECT_EQ(lines.lines[0].first, "Shortest time");
+  EXPECT_EQ(lines.lines[0].second, "drills on 1 of 2 grounds, voxels on 1.");
+  measure("sea/b", {0.010, 0.010, 0.010});
+  EXPECT_EQ(row()[2], "drills ≈ voxels");
+  EXPECT_EQ(row()[3], "drills on 2 of 2 grounds") << "alone on one, tied on the other";
+  EXPECT_EQ(tables()[0].rows[0][2].style, "tied");
+  measure("sea/b", {0.010});
+  EXPECT_EQ(row()[2], "not decided") << "too few samples";
+  measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.1);
+  EXPECT_EQ(row()[2], "voxels") << "of those that lose little there is one at sea";
+  EXPECT_EQ(plain_text(tables()[0]),
+            "Best at        hill        sea     In all\n"
+            "Shortest time  drills 3 ×  voxels  drills on 1 of 2 grounds, voxels on 1\n");
+}
+
 TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
-  std::set<std::string> ids, sentences;
+  std::set<std::string> ids, cells;
   for (const RankingLayout& layout : ranking_layouts()) {
     EXPECT_TRUE(ids.insert(layout.id).second) << layout.id;
     EXPECT_GE(layout.entries.size(), 2U) << layout.id;
-    if (!layout.sentence.empty()) sentences.insert(layout.sentence);
+    if (layout.ground.empty()) continue;
+    EXPECT_TRUE(cells.insert(layout.table + "/" + layout.question + "/" + layout.ground).second) << layout.id;
   }
   EXPECT_EQ(ids.size(), 58U);
-  EXPECT_EQ(sentences.size(), 4U) << "README has room for five, and standings_sentence() is the fifth";
 }
 
 TEST_F(RankingTest, StandOnTheReportsFirstPage) {
@@ -358,9 +326,11 @@ TEST_F(RankingTest, StandOnTheReportsFirstPage) {
     store_.append(record);
   }
   const std::string page = read_file(write_report(folder_).page);
-  EXPECT_THAT(page, HasSubstr(layout.entries[0].label + " (1 kB), ahead of"));
-  EXPECT_THAT(page, HasSubstr(tie_rule()));
-  EXPECT_THAT(read_file(folder_ / "report/findings.md"), testing::StartsWith("- **" + layout.task + "**: "));
+  EXPECT_THAT(page, HasSubstr(">" + layout.entries[0].label + " 2 ×</a>"));
+  const std::string all = read_file(folder_ / "report/findings.md");
+  EXPECT_THAT(all, HasSubstr("- **" + layout.task + "**: "));
+  EXPECT_THAT(all, HasSubstr(layout.entries[0].label + " (1 kB), ahead of"));
+  EXPECT_THAT(all, HasSubstr(tie_rule()));
   EXPECT_TRUE(nlohmann::json::accept(read_file(folder_ / "report/findings.json")));
 }
 

@@ -1,0 +1,178 @@
+#include "results/report/findings_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include "results/report/report_tables.h"
+#include "results/store/format.h"
+
+namespace terrabench {
+namespace {
+
+// The methods that are best, by name; empty if nothing is decided.
+std::vector<std::string> winners(const Ranking& ranking) {
+  std::vector<std::string> best;
+  if (!ranking.decided()) return best;
+  for (std::size_t i = 0; i < ranking.tied; ++i) best.push_back(ranking.places[i].label);
+  std::ranges::sort(best);
+  return best;
+}
+
+std::string joined(const std::vector<std::string>& methods) {
+  return fmt::format("{}", fmt::join(methods, " ≈ "));
+}
+
+Cell cell_of(const Ranking& ranking) {
+  const std::vector<std::string> best = winners(ranking);
+  Cell cell{joined(best)};
+  if (best.empty()) {
+    cell.text = "not decided";
+    cell.style = "undecided";
+  } else if (best.size() > 1) {
+    cell.style = "tied";
+  } else if (ranking.places.size() > 1) {
+    cell.text += " " + short_factor(ranking.places[1].factor);
+  }
+  cell.link = ground_page(ranking.layout->ground) + ".*";
+  return cell;
+}
+
+// Of one question: which methods are best on which grounds, tied or alone.
+class Outcomes {
+ public:
+  void add(const Ranking& ranking) {
+    for (const std::string& method : winners(ranking)) grounds_of_[method].push_back(grounds_);
+    ++grounds_;
+  }
+
+  // "ROAM on 2 of 3 grounds, clipmap and hybrid on 1": methods that are best on the same grounds stand
+  // together; those on the most grounds, and on request the next, too.
+  std::string text(bool with_next) const {
+    std::map<std::vector<int>, std::vector<std::string>> methods_of;
+    for (const auto& [method, grounds] : grounds_of_) methods_of[grounds].push_back(method);
+    std::vector<std::pair<std::vector<int>, std::vector<std::string>>> groups(methods_of.begin(),
+                                                                              methods_of.end());
+    std::ranges::stable_sort(groups, std::greater{}, [](const auto& group) { return group.first.size(); });
+    std::string text;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const auto& [grounds, methods] = groups[i];
+      const bool as_good = grounds.size() == groups[0].first.size();
+      if (!as_good && (!with_next || i > 1)) break;
+      text += fmt::format("{}{} on {}", i == 0 ? "" : ", ", list_of(methods, ", ", " and "), grounds.size());
+      if (i == 0) text += fmt::format(" of {} grounds", grounds_);
+    }
+    return text.empty() ? fmt::format("nothing decided on {} grounds", grounds_) : text;
+  }
+
+ private:
+  int grounds_ = 0;
+  std::map<std::string, std::vector<int>> grounds_of_;
+};
+
+std::vector<const Ranking*> placed(std::span<const Ranking> rankings) {
+  std::vector<const Ranking*> in_tables;
+  for (const Ranking& ranking : rankings) {
+    if (!ranking.layout->ground.empty()) in_tables.push_back(&ranking);
+  }
+  return in_tables;
+}
+
+bool same_row(const Ranking& a, const Ranking& b) {
+  return a.layout->table == b.layout->table && a.layout->question == b.layout->question;
+}
+
+std::string slug(std::string text) {
+  for (char& c : text) c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// `rankings`: of one table.
+Table table_of(const std::string& name, const std::vector<const Ranking*>& rankings) {
+  Table table{slug("findings " + name),
+              name,
+              "The best method on each ground with its lead over the next; ≈ joins methods that are tied.",
+              {{"Best at"}},
+              {}};
+  std::vector<std::string> grounds;
+  for (const Ranking* const ranking : rankings) {
+    const std::string& ground = ranking->layout->ground;
+    if (std::ranges::count(grounds, ground) == 0) grounds.push_back(ground);
+  }
+  for (const std::string& ground : grounds) table.columns.push_back({ground});
+  table.columns.push_back({"In all"});
+  Outcomes outcomes;
+  const auto finish_row = [&] {
+    if (!table.rows.empty()) table.rows.back().back().text = outcomes.text(false);
+    outcomes = {};
+  };
+  for (std::size_t i = 0; i < rankings.size(); ++i) {
+    if (i == 0 || !same_row(*rankings[i - 1], *rankings[i])) {
+      finish_row();
+      table.rows.emplace_back(table.columns.size(), Cell{"–"})[0].text = rankings[i]->layout->question;
+    }
+    const auto at = std::ranges::find(grounds, rankings[i]->layout->ground) - grounds.begin();
+    table.rows.back()[static_cast<std::size_t>(at) + 1] = cell_of(*rankings[i]);
+    outcomes.add(*rankings[i]);
+  }
+  finish_row();
+  return table;
+}
+
+std::size_t width_of(std::string_view utf8) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::vector<Table> findings_tables(std::span<const Ranking> rankings) {
+  std::vector<std::pair<std::string, std::vector<const Ranking*>>> groups;
+  for (const Ranking* const ranking : placed(rankings)) {
+    const std::string& name = ranking->layout->table;
+    auto at = std::ranges::find(groups, name, &decltype(groups)::value_type::first);
+    if (at == groups.end()) at = groups.insert(at, {name, {}});
+    at->second.push_back(ranking);
+  }
+  std::vector<Table> tables;
+  for (const auto& [name, members] : groups) tables.push_back(table_of(name, members));
+  return tables;
+}
+
+Facts headlines(std::span<const Ranking> rankings) {
+  const std::vector<const Ranking*> in_tables = placed(rankings);
+  Facts lines;
+  for (auto first = in_tables.begin(); first != in_tables.end();) {
+    const Ranking& head = **first;
+    Outcomes outcomes;
+    for (; first != in_tables.end() && same_row(**first, head); ++first) outcomes.add(**first);
+    if (head.layout->headline) lines.lines.emplace_back(head.layout->question, outcomes.text(true) + ".");
+  }
+  return lines;
+}
+
+std::string plain_text(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    widths.push_back(width_of(table.columns[i].title));
+    for (const auto& row : table.rows) widths[i] = std::max(widths[i], width_of(row[i].text));
+  }
+  std::string text;
+  const auto add_line = [&](auto text_of) {
+    std::string line;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      const std::string& cell = text_of(i);
+      line += cell + std::string(widths[i] - width_of(cell) + 2, ' ');
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  add_line([&](std::size_t i) -> const std::string& { return table.columns[i].title; });
+  for (const auto& row : table.rows)
+    add_line([&](std::size_t i) -> const std::string& { return row[i].text; });
+  return text;
+}
+
+}  // namespace terrabench

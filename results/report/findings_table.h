@@ -1,0 +1,26 @@
+// Which method is best at what on which ground, in tables: a row per question, a column per ground. Made from
+// rankings; README.md, the report and the terminal show the same ones.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/claims/ranking.h"
+#include "results/report/document.h"
+
+namespace terrabench {
+
+// A table per name of RankingLayout::table, in the order of first use, of the rankings that have one. In a
+// cell stands the best method with its lead over the next, "ROAM 1.78 ×", or those that are tied, "drills ≈
+// stacks"; a link leads to the ground's page. The last column says on how many of the grounds a method is
+// best.
+std::vector<Table> findings_tables(std::span<const Ranking>);
+
+// A line per headline: the question, and "ROAM on 3 of 3 grounds".
+Facts headlines(std::span<const Ranking>);
+
+// The table for a terminal: columns of equal width, no caption.
+std::string plain_text(const Table&);
+
+}  // namespace terrabench
