@@ -64,5 +64,8 @@ struct Experiment {
 std::span<const std::reference_wrapper<const Experiment>> experiments();
 // Throws unknown_name, with the nearest id.
 const Experiment& experiment(std::string_view id);
+// Throws usage_error for a glob that matches no id. If it matches claims, the advice names the experiments
+// that measure them.
+void demand_experiments(std::span<const std::string> globs);
 
 }  // namespace terrabench

@@ -1,7 +1,14 @@
 // Every experiment: declared, and in the order in which they are listed and measured.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <functional>
+#include <set>
 
 #include "experiments/experiment.h"
+#include "results/claims/claims.h"
+#include "results/store/glob.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -136,6 +143,35 @@ const Experiment& experiment(std::string_view id) {
     ids.push_back(each.id);
   }
   throw unknown_name("experiment", id, ids);
+}
+
+namespace {
+
+// Those that measure the claims that the glob matches.
+std::set<std::string_view> measuring(const std::string& glob) {
+  std::set<std::string_view> ids;
+  for (const Paper& paper : papers()) {
+    for (const Claim& claim : paper.claims) {
+      if (!matches_glob(glob, claim.id)) continue;
+      for (const std::string_view id : claim.experiments()) ids.insert(id);
+    }
+  }
+  return ids;
+}
+
+}  // namespace
+
+void demand_experiments(std::span<const std::string> globs) {
+  std::vector<std::string_view> ids;
+  for (const Experiment& each : experiments()) ids.push_back(each.id);
+  for (const std::string& glob : globs) {
+    if (std::ranges::any_of(ids, [&](std::string_view id) { return matches_glob(glob, id); })) continue;
+    if (const auto found = measuring(glob); !found.empty()) {
+      throw usage_error(fmt::format("'{}' names claims, not experiments", glob), "",
+                        fmt::format("they are measured by: terrabench run {}", fmt::join(found, " ")));
+    }
+  }
+  demand_matches(globs, ids, "experiment");
 }
 
 }  // namespace terrabench

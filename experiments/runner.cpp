@@ -235,9 +235,7 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
 
 // Those that the patterns name and the profile measures.
 std::vector<const Experiment*> chosen_experiments(const RunPlan& plan) {
-  std::vector<std::string_view> ids;
-  for (const Experiment& experiment : experiments()) ids.push_back(experiment.id);
-  demand_matches(plan.patterns, ids, "experiment");
+  demand_experiments(plan.patterns);
   std::vector<const Experiment*> chosen;
   const bool scale = plan.options.profile == Profile::kScale;
   for (const Experiment& experiment : experiments()) {

@@ -17,10 +17,12 @@
 #include <span>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "experiments/commands/commands.h"
 #include "experiments/method_sets.h"
 #include "experiments/runner.h"
+#include "results/report/citation.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
 #include "terrain/progress.h"
@@ -36,12 +38,23 @@ constexpr int kClosedPipe = 141;
 constexpr const char* kFooter =
     "Exit codes: 0 good, 1 a claim is not as expected, 2 wrong use, 3 bad input, 4 environment (no GL, "
     "disk full), 5 some cases of a run failed, 130 interrupted, 141 the reader of the output closed the "
-    "pipe.\n"
-    "Examples:\n"
-    "  terrabench run 'hybrid.*' --out out\n"
-    "  terrabench check out --claims 'hybrid.*' && terrabench report out\n"
-    "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png\n"
-    "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128";
+    "pipe.";
+
+// Below the help of the command.
+constexpr std::pair<const char*, const char*> kExamples[] = {
+    {"list", "  terrabench list terrains\n  terrabench list mrbsp"},
+    {"run", "  terrabench run mrbsp.walk --out out\n  terrabench run 'hybrid.*' --profile paper --out out"},
+    {"check", "  terrabench check out\n  terrabench check results/reference --claims 'mrbsp.T2.*' --verbose"},
+    {"report", "  terrabench report out\n  terrabench report results/reference --latex bundle"},
+    {"compare", "  terrabench compare before after\n  terrabench compare figures-by-osmesa figures-by-gpu"},
+    {"merge", "  terrabench merge out shard1 shard2"},
+    {"represent",
+     "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png\n"
+     "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128"},
+    {"export", "  terrabench export mountain.tb mountain.ply"},
+    {"render", "  terrabench render mountain.tif --scene --out mountain.png"},
+    {"info", "  terrabench info mountain.tif"},
+};
 
 void on_signal(int) {
   // A second signal ends the process at once: the work may not check for the first.
@@ -83,8 +96,10 @@ void add_list(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("list",
                                      "List representations, lods, experiments, claims, terrains, models and "
                                      "the scene, with their parameters");
-  command->add_option("what", a.list.what,
-                      "representations, lods, experiments, claims, terrains, models or scene (default: all)");
+  command->add_option(
+      "what", a.list.what,
+      "representations, lods, experiments, claims, terrains, models or scene; or a paper, hybrid, "
+      "ght, drill, mrbsp or meshgrow, or cross: its experiments and claims (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
 }
 
@@ -282,7 +297,7 @@ void install_signals() {
 ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("help")) return help_command(app, a.help);
   if (app.got_subcommand("version")) {
-    fmt::print("{}\n", TERRABENCH_VERSION);
+    fmt::print("terrabench {}\n", version());
     return ExitCode::kGood;
   }
   if (app.got_subcommand("list")) return list_command(a.list);
@@ -310,9 +325,8 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
 
 int main_program(int argc, char** argv) {
   CLI::App app{"terrabench reproduces five terrain papers and measures their methods against each other."};
-  app.footer(kFooter);
   app.require_subcommand(1);
-  app.set_version_flag("--version", TERRABENCH_VERSION);
+  app.set_version_flag("--version", [] { return "terrabench " + version(); });
   app.add_flag_callback("--allow-network", allow_network,
                         "Let DEMs that name files on the network, such as /vsicurl/ in a .vrt, fetch them");
   Arguments arguments;
@@ -325,6 +339,10 @@ int main_program(int argc, char** argv) {
   add_info(app, arguments.info);
   add_render(app, arguments.render, arguments.threads);
   add_help(app, arguments);
+  app.footer(kFooter);
+  for (const auto& [command, examples] : kExamples) {
+    app.get_subcommand(command)->footer(std::string(kFooter) + "\nExamples:\n" + examples);
+  }
   check_values(app);
   const std::span<char*> given = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
   check_command(app, given);

@@ -21,7 +21,9 @@ class App;
 namespace terrabench {
 
 struct ListArguments {
-  std::string what;  // representations, lods, experiments, claims, terrains, models, scene; empty: all
+  // representations, lods, experiments, claims, terrains, models, scene; a paper's id: its experiments and
+  // claims; empty: all
+  std::string what;
   bool json = false;
 };
 ExitCode list_command(const ListArguments&);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "experiments/commands/commands.h"
 #include "experiments/experiment.h"
@@ -96,6 +97,7 @@ Json list_claims() {
                       {"summary", claim.statement},
                       {"paper", paper.id},
                       {"where", claim.where},
+                      {"experiments", claim.experiments()},
                       {"class", std::string(1, claim.claim_class)},
                       {"known", name(claim.known())}});
     }
@@ -155,13 +157,32 @@ constexpr std::array kListings{
     Listing{"scene", list_scene},
 };
 
+// " (Table 2; run mrbsp.walk)": where a claim stands in its paper, and what measures it.
+std::string source_of(const Json& entry) {
+  if (!entry.contains("where")) return "";
+  std::string text = entry["where"].get<std::string>();
+  std::string_view separator = text.empty() ? "run" : "; run";
+  for (const Json& experiment : entry["experiments"]) {
+    text += fmt::format("{} {}", std::exchange(separator, ""), experiment.get<std::string>());
+  }
+  return text.empty() ? "" : fmt::format(" ({})", text);
+}
+
+Json of_paper(const Json& list, std::string_view paper) {
+  Json those = Json::array();
+  for (const Json& entry : list) {
+    if (entry["paper"] == paper) those.push_back(entry);
+  }
+  return those;
+}
+
 void print_text(std::string_view title, const Json& list) {
   std::size_t width = 0;
   for (const Json& entry : list) width = std::max(width, entry["name"].get_ref<const std::string&>().size());
   fmt::print("{}\n", title);
   for (const Json& entry : list) {
-    fmt::print("  {:<{}}  {}\n", entry["name"].get<std::string>(), width,
-               entry["summary"].get<std::string>());
+    fmt::print("  {:<{}}  {}{}\n", entry["name"].get<std::string>(), width,
+               entry["summary"].get<std::string>(), source_of(entry));
     if (!entry.contains("parameters")) continue;
     for (const Json& parameter : entry["parameters"]) {
       fmt::print("  {:<{}}    --set {}={}  {} ({})\n", "", width, parameter["name"].get<std::string>(),
@@ -180,6 +201,12 @@ ExitCode list_command(const ListArguments& arguments) {
     known.push_back(listing.name);
     if (arguments.what.empty() || arguments.what == listing.name)
       chosen[std::string(listing.name)] = listing.list();
+  }
+  for (const Paper& paper : papers()) {
+    known.push_back(paper.id);
+    if (arguments.what != paper.id) continue;
+    chosen["experiments"] = of_paper(list_experiments(), paper.id);
+    chosen["claims"] = of_paper(list_claims(), paper.id);
   }
   if (chosen.empty()) throw unknown_name("listing", arguments.what, known);
   if (arguments.json) {

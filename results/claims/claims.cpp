@@ -265,6 +265,19 @@ Verdict Claim::known() const {
   return claim_class == 'S' ? Verdict::kShape : Verdict::kReproduced;
 }
 
+std::vector<std::string_view> Claim::experiments() const {
+  std::vector<std::string_view> found;
+  for (const Condition& condition : conditions) {
+    for (const std::vector<Operand>* const operands : {&condition.operands, &condition.brightness}) {
+      for (const Operand& operand : *operands) {
+        if (!operand.is_number() && std::ranges::count(found, operand.experiment) == 0)
+          found.push_back(operand.experiment);
+      }
+    }
+  }
+  return found;
+}
+
 std::string Claim::reason() const {
   if (known() != Verdict::kDiffers && !machine.empty()) return machine;
   if (note.empty()) return cause_title.empty() ? "" : cause_title + ".";

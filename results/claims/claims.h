@@ -129,6 +129,9 @@ struct Claim {
   bool measured_in(std::string_view profile) const {
     return std::ranges::count(profiles, profile) > 0 || (of_profile_scale() && profile == "paper");
   }
+  // Those whose measurements the conditions read, in that order. Empty for a picture of which only its file
+  // is judged: no claim says which experiment draws it.
+  std::vector<std::string_view> experiments() const;
 };
 
 // Bibliographic data, only as far as the paper's text states them.

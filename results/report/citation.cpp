@@ -56,11 +56,15 @@ std::string program_entry() {
                {{"author", "{The terrabench authors}"},
                 {"title", "{terrabench: five terrain papers, measured again and against each other}"},
                 {"howpublished", "Computer program"},
-                {"note", fmt::format("Version {}, git revision {}{}", TERRABENCH_VERSION, kGitRevision,
-                                     kGitDirty ? " with uncommitted changes" : "")}});
+                {"note", "Version " + version()}});
 }
 
 }  // namespace
+
+std::string version() {
+  return fmt::format("{}, git revision {}{}", TERRABENCH_VERSION, kGitRevision,
+                     kGitDirty ? " with uncommitted changes" : "");
+}
 
 std::string reference_text(const Reference& reference) {
   std::string text = list_of(reference.authors, ", ", " and ");
