@@ -147,12 +147,13 @@ const Experiment& experiment(std::string_view id) {
 
 namespace {
 
-// Those that measure the claims that the glob matches.
+// Those that measure the claims that the glob matches, or whose ids begin with it: "mrbsp.T2" for
+// "mrbsp.T2.time".
 std::set<std::string_view> measuring(const std::string& glob) {
   std::set<std::string_view> ids;
   for (const Paper& paper : papers()) {
     for (const Claim& claim : paper.claims) {
-      if (!matches_glob(glob, claim.id)) continue;
+      if (!matches_glob(glob, claim.id) && !matches_glob(glob + ".*", claim.id)) continue;
       for (const std::string_view id : claim.experiments()) ids.insert(id);
     }
   }

@@ -1,4 +1,4 @@
-// Parses options, handles errors in one place, returns the exit codes of README.md.
+// Parses options, handles errors in one place, returns the exit codes of docs/commands.md.
 #include "experiments/commands/command_line.h"
 
 #include <fmt/format.h>

@@ -44,6 +44,9 @@ ExitCode export_command(const ExportArguments& a) {
   const LineGrid lines = a.like.empty() ? own_lines(*loaded.representation)
                                         : lines_like(a.like, *loaded.representation, progress);
   print_export(a.out, *loaded.type, *loaded.representation, lines, progress);
+  if (a.like.empty() && a.out.extension() == ".tif") {
+    fmt::print("note        without place and reference system; those of the DEM: --like FILE\n");
+  }
   return ExitCode::kGood;
 }
 

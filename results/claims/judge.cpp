@@ -113,9 +113,15 @@ std::set<std::string_view> experiments_run(const Store& store) {
   return run;
 }
 
-// Whether each experiment that the claim reads was run. Which one draws a picture is known only from the
-// numbers that the claim asks of it: a picture that was not drawn counts as not run where there are none.
-bool can_be_judged(const Claim& claim, const Store& store, const std::set<std::string_view>& run) {
+// Whether each experiment that the claim reads was run; of a claim that reads none, any of its paper. Which
+// one draws a picture is known only from the numbers that the claim asks of it: a picture that was not drawn
+// counts as not run where there are none.
+bool can_be_judged(const Paper& paper, const Claim& claim, const Store& store,
+                   const std::set<std::string_view>& run) {
+  if (claim.conditions.empty()) {
+    const std::string beginning = paper.id + ".";
+    return std::ranges::any_of(run, [&](std::string_view id) { return id.starts_with(beginning); });
+  }
   const auto ran = [&](const Operand& operand) {
     return operand.is_number() || run.contains(operand.experiment);
   };
@@ -193,7 +199,7 @@ JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span
     for (const Claim& claim : paper.claims) {
       if (!matches_any(globs, claim.id)) continue;
       const bool left_to_choose = demand == Demand::kRun || claim.of_profile_scale();
-      if (left_to_choose && !can_be_judged(claim, store, run)) {
+      if (left_to_choose && !can_be_judged(paper, claim, store, run)) {
         ++results.left_out;
       } else {
         results.judgements.push_back(judge_claim(paper, claim, store, results.profile));

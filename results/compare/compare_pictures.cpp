@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostAlone = 10;  // pictures of one folder alone that the text lists
 constexpr std::string_view kNames[] = {"not compared", "differs",     "close",
                                        "identical",    "only before", "only after"};
 
@@ -225,12 +226,16 @@ std::string pictures_text(const PictureComparison& comparison, bool colour) {
     const std::size_t count = comparison.count(static_cast<PictureChange>(i));
     if (count > 0) tally += fmt::format("{}{} {}", tally.empty() ? "" : ", ", count, kNames[i]);
   }
+  std::size_t alone = 0;
   for (const ComparedPicture& p : comparison.pictures) {
-    if (p.change == PictureChange::kIdentical) continue;
+    if (p.change == PictureChange::kIdentical || (one_sided(p) && ++alone > kMostAlone)) continue;
     const bool marked = p.change != PictureChange::kClose;
     const std::string_view paint = colour && marked ? "\x1b[33m" : "", plain = paint.empty() ? "" : "\x1b[0m";
     text += fmt::format("  {} {}{:<12}{} {}{}\n", marked ? '*' : ' ', paint, name(p.change), plain,
                         printable(p.file), finding_text(p));
+  }
+  if (alone > kMostAlone) {
+    text += fmt::format("  … and {} more that only one folder has; --json lists all\n", alone - kMostAlone);
   }
   return fmt::format("pictures: {} (close: at least {} dB and SSIM {})\n{}", tally, comparison.limits.psnr,
                      comparison.limits.ssim, text);

@@ -18,7 +18,9 @@ namespace terrabench {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::Not;
 
 constexpr const char* kSmallRun = "$T run 'hybrid.noise*' --set pixels=32 --out out ";
@@ -31,7 +33,11 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
        {"list", "run", "check", "report", "cite", "compare", "represent", "render", "info"}) {
     EXPECT_EQ(call(std::string("$T ") + command + " --help").code, 0) << command;
   }
-  EXPECT_EQ(call("$T --version").code, 0);
+  for (const char* version : {"$T --version", "$T version"}) {
+    EXPECT_THAT(call(version).text, MatchesRegex("terrabench [0-9.]+, git revision [0-9a-z]+.*\n"))
+        << version;
+  }
+  EXPECT_THAT(call("$T help merge").text, HasSubstr("terrabench merge out shard1 shard2"));
 }
 
 TEST_F(CommandLine, WrongUseExits2AndSuggests) {
@@ -122,6 +128,21 @@ TEST_F(CommandLine, ListsEverythingAsTextAndJson) {
   }
   EXPECT_EQ(call("$T list --json | python3 -m json.tool").code, 0);
   EXPECT_THAT(call("$T list experiments").text, HasSubstr("(a number between 0.01 and 1000 px)"));
+}
+
+// Who has a table of a paper before him finds what to run.
+TEST_F(CommandLine, FromAClaimToItsExperiment) {
+  const Outcome paper = call("$T list mrbsp");
+  EXPECT_EQ(paper.code, 0);
+  EXPECT_THAT(paper.text, HasSubstr("Table 2: triangles and time of LOD, visibility and both"));
+  EXPECT_THAT(paper.text, ContainsRegex("mrbsp.T2.tris.lod .*\\(Table 2.*; run mrbsp.walk\\)\n"));
+  EXPECT_THAT(paper.text, Not(HasSubstr("hybrid.")));
+  EXPECT_EQ(call("$T list cross --json | python3 -m json.tool").code, 0);
+  for (const char* claim : {"mrbsp.T2.time.fitted", "'mrbsp.T2.*'", "mrbsp.T2"}) {
+    const Outcome run = call(std::string("$T run ") + claim);
+    EXPECT_EQ(run.code, 2) << claim;
+    EXPECT_THAT(run.text, HasSubstr("measured by: terrabench run mrbsp.walk")) << claim;
+  }
 }
 
 TEST_F(CommandLine, RepresentSavesRendersAndInfoReadsBack) {

@@ -164,6 +164,8 @@ TEST_F(ComparePictures, WhatOnlyOneFolderHasIsNoDifference) {
   draw("a", "y.png", slope(0));
   EXPECT_TRUE(compared().passed());
   EXPECT_EQ(compared().count(PictureChange::kOnlyBefore), 1U);
+  for (int i = 0; i < 30; ++i) draw("a", "z" + std::to_string(i) + ".png", slope(0));
+  EXPECT_THAT(pictures_text(compared(), false), HasSubstr("… and 21 more that only one folder has"));
 }
 
 TEST_F(ComparePictures, ADamagedPictureIsADifference) {

@@ -104,6 +104,8 @@ TEST_F(JudgeTest, OnlyWhatWasRunIsJudgedWhereAsked) {
   const JudgedResults some = judge(folder_, {}, "", Demand::kRun), all = judge(folder_);
   EXPECT_TRUE(some.passed());
   EXPECT_GT(some.judgements.size(), 3U);
+  for (const Judgement& judgement : some.judgements)
+    EXPECT_EQ(judgement.paper->id, "hybrid") << judgement.claim->id;
   EXPECT_EQ(some.judgements.size() + some.left_out, all.judgements.size() + all.left_out);
   EXPECT_EQ(of(some, "hybrid.T1.128").verdict, Verdict::kReproduced);
   EXPECT_FALSE(all.passed());
