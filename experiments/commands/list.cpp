@@ -97,7 +97,7 @@ Json list_claims() {
                       {"paper", paper.id},
                       {"where", claim.where},
                       {"class", std::string(1, claim.claim_class)},
-                      {"known", name(claim.known())}});
+                      {"expected", name(claim.expected())}});
     }
   }
   return list;

@@ -135,20 +135,6 @@ Facts claim_notes(const JudgedResults& results, const Paper& paper) {
   return notes;
 }
 
-Table pending_table(const JudgedResults& results) {
-  Table table{"pending-rows",
-              "Claims that wait for their method",
-              "They do not count against a run.",
-              {{"Claim"}, {"The paper"}, {"Why"}},
-              {}};
-  for (const Judgement& judgement : results.judgements) {
-    if (judgement.verdict != Verdict::kPending) continue;
-    table.rows.push_back(
-        {{judgement.claim->id}, {where_and_statement(*judgement.claim)}, {judgement.measured}});
-  }
-  return table;
-}
-
 namespace {
 
 Facts run_facts(const Provenance& run) {
