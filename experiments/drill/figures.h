@@ -26,10 +26,8 @@ struct ChannelsSheet {
 };
 inline constexpr std::array<std::uint32_t, 4> kDrawnTaus{25, 50, 100, 200};
 ChannelsSheet channels_sheet(const Study&);
-// Figure 2: the planes and cross-sections of one channel pixel, in a clear valley, their union and the fits.
-// The ground is more than 2 · 24 samples wide and deep.
+// Figure 2 shows this channel pixel, in a clear valley. The ground is more than 2 · 24 samples wide and deep.
 std::uint32_t example_pixel(const Study&);
-figures::Sheet cross_sections_sheet(const Study&, std::uint32_t pixel);
 // Figure 3.
 struct BestSheet {
   figures::Sheet sheet;
