@@ -124,7 +124,7 @@ Facts claim_notes(const JudgedResults& results, const Paper& paper) {
   Facts notes;
   for (const Judgement& judgement : results.of(paper)) {
     const Claim& claim = *judgement.claim;
-    if (judgement.verdict == Verdict::kPending || claim.note.empty()) continue;
+    if (claim.note.empty()) continue;
     // Claims of one table often share a note.
     if (!notes.lines.empty() && notes.lines.back().second == claim.note) {
       notes.lines.back().first += ", " + claim.id;
