@@ -128,13 +128,7 @@ Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::
 }
 
 bool is_settled(const Record& record, const Store& store, const Provenance& now) {
-  const Record* const found = store.find({.experiment = record.experiment,
-                                          .case_name = record.case_name,
-                                          .profile = record.profile,
-                                          .parameters = record.parameters,
-                                          .seed = record.seed,
-                                          .terrain_checksum = std::nullopt},
-                                         now);
+  const Record* const found = store.find(record, now);
   return found != nullptr && found->outcome != CaseOutcome::kFailed;
 }
 

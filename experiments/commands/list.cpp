@@ -99,7 +99,7 @@ Json list_claims() {
                       {"where", claim.where},
                       {"experiments", claim.experiments()},
                       {"class", std::string(1, claim.claim_class)},
-                      {"known", name(claim.known())}});
+                      {"expected", name(claim.expected())}});
     }
   }
   return list;

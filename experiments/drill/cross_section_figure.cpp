@@ -146,33 +146,7 @@ class ProfileChart {
   double low_ = 0, high_ = 1;
 };
 
-}  // namespace
-
-// A pixel in a clear valley, 0 if there is none: among the pixels at least kAround from the border and with a
-// flow of at least 200 pixels, the one whose rays rise most on average.
-std::uint32_t example_pixel(const Study& study) {
-  const CrossSections sections(study.ground, kW);
-  std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * kW);
-  std::uint32_t best = 0;
-  float most = -std::numeric_limits<float>::infinity();
-  for (const std::uint32_t pixel : channel_pixels(study.network, 200)) {
-    const int i = static_cast<int>(pixel) % study.ground.width,
-              j = static_cast<int>(pixel) / study.ground.width;
-    if (i < kAround || j < kAround || i >= study.ground.width - kAround ||
-        j >= study.ground.depth - kAround) {
-      continue;
-    }
-    sections.rays(pixel, rays);
-    float rise = 0;
-    for (const float h : rays) rise += h - study.ground.heights[pixel];
-    if (rise > most) {
-      most = rise;
-      best = pixel;
-    }
-  }
-  return best;
-}
-
+// The planes and cross-sections of one channel pixel, their union and the fits.
 figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   const Heightfield& ground = study.ground;
   const Profiles shown(ground, pixel);
@@ -211,6 +185,33 @@ figures::Sheet cross_sections_sheet(const Study& study, std::uint32_t pixel) {
   chart.key(124, "monotone fit", strokes[1], 1);
   chart.key(276, "vertex at the pixel", strokes[2], 1);
   return sheet;
+}
+
+}  // namespace
+
+// A pixel in a clear valley, 0 if there is none: among the pixels at least kAround from the border and with a
+// flow of at least 200 pixels, the one whose rays rise most on average.
+std::uint32_t example_pixel(const Study& study) {
+  const CrossSections sections(study.ground, kW);
+  std::vector<float> rays(static_cast<std::size_t>(CrossSections::kRays) * kW);
+  std::uint32_t best = 0;
+  float most = -std::numeric_limits<float>::infinity();
+  for (const std::uint32_t pixel : channel_pixels(study.network, 200)) {
+    const int i = static_cast<int>(pixel) % study.ground.width,
+              j = static_cast<int>(pixel) / study.ground.width;
+    if (i < kAround || j < kAround || i >= study.ground.width - kAround ||
+        j >= study.ground.depth - kAround) {
+      continue;
+    }
+    sections.rays(pixel, rays);
+    float rise = 0;
+    for (const float h : rays) rise += h - study.ground.heights[pixel];
+    if (rise > most) {
+      most = rise;
+      best = pixel;
+    }
+  }
+  return best;
 }
 
 void draw_cross_sections(const Study& study, Recorder& recorder) {

@@ -72,12 +72,6 @@ glm::dvec3 CuttingPlanes::origin(double x, double y, int width, int height) cons
   return middle + kRight * ((x - width / 2.0) * scale) - kUp * ((y - height / 2.0) * scale);
 }
 
-glm::dvec2 CuttingPlanes::on_image(double east, double south, int width, int height) const {
-  const glm::dvec3 p = glm::dvec3{east, ground(east, south), south} - glm::dvec3{0, top_ / 2, 0};
-  const double scale = per_pixel(width, height);
-  return {width / 2.0 + glm::dot(p, kRight) / scale, height / 2.0 - glm::dot(p, kUp) / scale};
-}
-
 // The colour of the block where a ray met it: ground, with the lines in which the planes cut it, or a side.
 Rgb CuttingPlanes::surface(const glm::dvec3& p) const {
   if (p.y < ground(p.x, p.z) - 0.5) return kRock;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -23,8 +22,6 @@ class CuttingPlanes {
 
   // O(pixels · side of the block), parallel.
   Image draw(int width, int height) const;
-  // Where a point `east` and `south` of the pixel, on the ground, is in such an image, in pixels.
-  glm::dvec2 on_image(double east, double south, int width, int height) const;
   // Metres of the ground per sample of distance that are drawn as long as each other.
   double metres_per_sample() const { return metres_; }
 

@@ -1,4 +1,4 @@
-// The drill paper's figures in its layout, and maps of the error of regeneration.
+// The drill paper's figures in its layout.
 #pragma once
 
 #include <array>
@@ -26,16 +26,14 @@ struct ChannelsSheet {
 };
 inline constexpr std::array<std::uint32_t, 4> kDrawnTaus{25, 50, 100, 200};
 ChannelsSheet channels_sheet(const Study&);
-// Figure 2: the planes and cross-sections of one channel pixel, in a clear valley, their union and the fits.
-// The ground is more than 2 · 24 samples wide and deep.
+// Figure 2 shows this channel pixel, in a clear valley. The ground is more than 2 · 24 samples wide and deep.
 std::uint32_t example_pixel(const Study&);
-figures::Sheet cross_sections_sheet(const Study&, std::uint32_t pixel);
-// Figure 3, and the difference of its terrains from the ground.
-struct BestSheets {
-  figures::Sheet terrains, differences;
+// Figure 3.
+struct BestSheet {
+  figures::Sheet sheet;
   std::array<Outcome, 2> drawn;  // of the two terrains, compared with the ground again
 };
-BestSheets best_sheets(const Study&, const Outcome& least_rmse, const Outcome& least_ahd);
+BestSheet best_sheet(const Study&, const Outcome& least_rmse, const Outcome& least_ahd);
 // Figure 4.
 figures::Sheet error_matrices_sheet(const std::vector<Outcome>&);
 

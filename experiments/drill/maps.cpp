@@ -1,4 +1,4 @@
-// Figures 1 and 3, and maps of the error of regeneration.
+// Figures 1 and 3.
 #include "experiments/figures/maps.h"
 
 #include <fmt/format.h>
@@ -101,16 +101,6 @@ void add_scale(figures::Sheet& sheet, const Layout& layout, const Heightfield& g
              12, "end");
 }
 
-std::string title_of(std::string_view what, const Outcome& o) {
-  return fmt::format("least {}: τ = {}, w = {}, k = {}", what, o.setting.tau, o.setting.w, o.setting.k);
-}
-
-Heightfield difference(const Heightfield& ground, const Heightfield& other) {
-  Heightfield field = other;
-  for (std::size_t i = 0; i < field.heights.size(); ++i) field.heights[i] -= ground.heights[i];
-  return field;
-}
-
 }  // namespace
 
 ChannelsSheet channels_sheet(const Study& study) {
@@ -156,61 +146,47 @@ void draw_channels(const Study& study, Recorder& recorder) {
                   study.name, study.ground.width, study.ground.depth)));
 }
 
-BestSheets best_sheets(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd) {
+BestSheet best_sheet(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd) {
   const Layout layout(study.ground, 1);
   const HeightRange range = height_range(study.ground);
   const Heightfield ground = layout.fitted(study.ground);
   const figures::Light light(ground);
-  const double most = 4 * std::max(least_rmse.rmse_metres, 1e-3);
-  BestSheets sheets{layout.sheet(), layout.sheet(), {}};
-  figures::Sheet &sheet = sheets.terrains, &maps = sheets.differences;
+  const auto elevations = colour_between(range);
+  BestSheet best{layout.sheet(), {}};
   for (int panel = 0; panel < 2; ++panel) {
     const Outcome& outcome = panel == 0 ? least_rmse : least_ahd;
     const Drills drills =
         extract_drills(study.ground, study.network, options_for(outcome.setting, study.variant));
     const Heightfield regenerated = regenerate(drills), fitted = layout.fitted(regenerated);
-    sheets.drawn[static_cast<std::size_t>(panel)] =
+    best.drawn[static_cast<std::size_t>(panel)] =
         compare(study.ground, study.network, drills, regenerated, outcome.setting, study.variant);
-    const auto elevations = colour_between(range);
-    const std::string title = title_of(panel == 0 ? "RMSE" : "AHD", outcome);
-    layout.place(sheet, panel, fmt::format("{}; {:.1f} % untouched", title, 100 * outcome.untouched),
+    const auto& [tau, w, k] = outcome.setting;
+    layout.place(best.sheet, panel,
+                 fmt::format("least {}: τ = {}, w = {}, k = {}; {:.1f} % untouched",
+                             panel == 0 ? "RMSE" : "AHD", tau, w, k, 100 * outcome.untouched),
                  figures::shaded_map(fitted, figures::Light(fitted, light), [&](float height) {
                    return is_touched(height, drills) ? elevations(height) : figures::kUntouched;
                  }));
-    layout.place(
-        maps, panel, fmt::format("{}; RMSE {:.1f} m", title, outcome.rmse_metres),
-        figures::shaded_map(
-            layout.fitted(difference(study.ground, regenerated)), light,
-            [&](float metres) { return figures::difference_colour(0.5 + 0.5 * metres / most); }, 0.45, 0.4));
   }
-  const double next = add_swatch(sheet, kGap, layout.legend(), figures::kUntouched, "no drill reaches");
-  add_elevations(sheet, next, layout.legend(), range);
-  add_scale(sheet, layout, study.ground);
-  figures::add_colour_key(maps, kGap, layout.legend(), "regenerated minus original, m", 240, 260,
-                          figures::difference_colour,
-                          {fmt::format("−{:.0f} or less", most), "0", fmt::format("{:.0f} or more", most)});
-  add_scale(maps, layout, study.ground);
-  return sheets;
+  const double next = add_swatch(best.sheet, kGap, layout.legend(), figures::kUntouched, "no drill reaches");
+  add_elevations(best.sheet, next, layout.legend(), range);
+  add_scale(best.sheet, layout, study.ground);
+  return best;
 }
 
 void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd, Recorder& recorder) {
-  const BestSheets sheets = best_sheets(study, least_rmse, least_ahd);
-  for (const auto& [panel, outcome] : {std::pair{"a", sheets.drawn[0]}, {"b", sheets.drawn[1]}}) {
+  const BestSheet best = best_sheet(study, least_rmse, least_ahd);
+  for (const auto& [panel, outcome] : {std::pair{"a", best.drawn[0]}, {"b", best.drawn[1]}}) {
     add_share(recorder, fmt::format("drawn_{}_rmse", panel), outcome.rmse);
     add_share(recorder, fmt::format("drawn_{}_ahd", panel), outcome.ahd[0]);
     add_share(recorder, fmt::format("drawn_{}_untouched", panel), outcome.untouched);
   }
-  sheets.terrains.write(recorder.figure(
+  best.sheet.write(recorder.figure(
       "drill.F3" + study.suffix,
       fmt::format("The paper's figure 3: {} regenerated, {}: (a) with the parameters of least RMSE, "
                   "(b) with those of least AHD (the mean in plan). "
                   "Where no drill reaches, the plateau remains.",
                   study.name, study.variant.words)));
-  sheets.differences.write(recorder.figure(
-      "drill.difference" + study.suffix,
-      fmt::format("The difference of figure 3's two terrains from {}, over its shaded relief. "
-                  "Blue is too low, red too high.",
-                  study.name)));
 }
 
 }  // namespace terrabench::drill

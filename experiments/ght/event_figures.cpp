@@ -366,8 +366,6 @@ Ght sequence_tree(std::uint64_t seed) {
   return ght;
 }
 
-std::span<const figures::Figure> event_figures() { return kFigures; }
-
 extern const Experiment kEventFigures = figures::figure_experiment<kFigures>(
     "ght.event-figures", "Figures 13, 15 and 17-24: events and their trees");
 

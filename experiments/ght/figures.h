@@ -1,7 +1,6 @@
 // The figures of "ght".
 #pragma once
 
-#include <span>
 #include <string_view>
 
 #include "experiments/figures/figure.h"
@@ -9,10 +8,11 @@
 
 namespace terrabench::ght {
 
-std::span<const figures::Figure> stage_figures();  // 1 and 3 to 10: stages.cpp
-std::span<const figures::Figure> event_figures();  // 13, 15 and 17 to 24: event_figures.cpp
+figures::Sheet draw_network(figures::Drawing&);  // 2: network_figure.cpp
+figures::Sheet draw_tree(figures::Drawing&);     // 23: tree_figure.cpp
 
-figures::Sheet draw_tree(figures::Drawing&);  // 23: tree_figure.cpp
+// Of figures 1, 2, 7 and 10, in space.
+inline constexpr figures::PanelStyle kSpaceStyle{.margin = 20, .words = 28, .baseline = 20, .text_size = 15};
 
 // The terrain of that name in terrain/events/scripts as a tree, with or without its events.
 Ght open_tree(std::string_view script, bool with_events = true);

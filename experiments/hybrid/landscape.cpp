@@ -26,12 +26,21 @@ constexpr Rgb kAxis{96, 96, 96};
 
 using Settings = std::initializer_list<std::pair<std::string_view, Value>>;
 
+// Built once for the three figures that show it: by far the most of their time.
+const Heightfield& noise_terrain() {
+  constexpr int kSamples = 1025;  // a metre and a half apart
+  static const Heightfield field = [] {
+    Progress silent;
+    return scene_heights(wide_ground({}), kSamples, silent);
+  }();
+  return field;
+}
+
 // The noise terrain, drawn by the clipmap.
 class Land {
  public:
-  explicit Land(Drawing& drawing) : gl_(drawing.gl()) {
+  explicit Land(Drawing& drawing) : gl_(drawing.gl()), field_(noise_terrain()) {
     Progress silent;
-    field_ = scene_heights(wide_ground({}), kSamples, silent);
     lod_ = lod("clipmap").build(field_, Parameters(lod("clipmap").parameters), silent);
     lod_->tune(383);
   }
@@ -67,10 +76,8 @@ class Land {
   }
 
  private:
-  static constexpr int kSamples = 1025;  // a metre and a half apart
-
   GlContext& gl_;
-  Heightfield field_;
+  const Heightfield& field_;
   std::unique_ptr<Lod> lod_;
   std::unique_ptr<ScenePainter> painter_;
 };
@@ -116,11 +123,6 @@ Sheet draw_dudv(Drawing& drawing) {
        {{normals, "normal map of the same 7 m × 7 m"}, {grey(1), "dv, black −1, white 1"}}});
 }
 
-Sheet landscape_sheet(const PanelRows& rows) {
-  Sheet sheet = panel_sheet(rows);
-  return sheet;
-}
-
 View resized(View view, glm::ivec2 size) {
   view.width = size.x;
   view.height = size.y;
@@ -156,7 +158,7 @@ Sheet draw_water(Drawing& drawing) {
   drawing.record("reflected_far_schlick", mix.far_schlick);
   drawing.record("warped_water", share_changed(still, warped, mirror, glass, true));
   drawing.record("warped_land", share_changed(still, warped, mirror, glass, false));
-  return landscape_sheet(
+  return panel_sheet(
       {{{land.draw(large, {}, 2), "all parts, with a moving normal map and highlights"}},
        {{around_the_water(mirror), "reflection alone"}, {around_the_water(glass), "refraction alone"}},
        {{around_the_water(still), "mixed by the Fresnel term"},
@@ -184,8 +186,8 @@ Sheet draw_fog(Drawing& drawing) {
   drawing.record("warmth_right", mean_over(coloured, kRight, warmth));
   drawing.record("warmth_of_one_colour", mean_over(plain, kUnderSun, warmth));
   drawing.record("warmth_away", mean_over(behind, kUnderSun, warmth));
-  return landscape_sheet({{{coloured, "towards the sun"}},
-                          {{plain, "towards the sun, fog of one colour"}, {behind, "away from the sun"}}});
+  return panel_sheet({{{coloured, "towards the sun"}},
+                      {{plain, "towards the sun, fog of one colour"}, {behind, "away from the sun"}}});
 }
 
 // Rows `from` to `to` of the map, moved along the horizon by `turn`.
@@ -252,7 +254,7 @@ Sheet draw_clouds(Drawing& drawing) {
   drawing.record("later_match", cloud_match(later, small, noise, turned));
   drawing.record("later_match_of_first_clouds", cloud_match(later, small, noise, 0));
   drawing.record("printed_match", cloud_match(as_printed, small, noise, 0));
-  return landscape_sheet(
+  return panel_sheet(
       {{{now, "i = (n − 0.4) ÷ 0.6, at least 0, of the noise n; clouds shaded by thickness and sun"}},
        {{later, "the same, 20 s later"}, {as_printed, "as printed: i = n, and one colour of cloud"}}});
 }

@@ -26,8 +26,6 @@ const std::array kSpecs{
            "the vector whose product with the water's normal is taken: towards the eye; the line of sight "
            "reflected by the water; the sun's light reflected by the water, as printed; or with the vector "
            "towards the eye the product itself as the term, and one minus the product"),
-    ParameterSpec{"grazing", 88.0, "°", "angle between the view and the normal that counts as grazing", 45,
-                  89.9},
     ParameterSpec{"sun_height", 35.0, "°", "height of the sun", 0, 90},
 };
 
@@ -36,12 +34,13 @@ std::vector<Case> cases(const RunOptions&) { return cases_by("reading", kSpecs);
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   constexpr double kDegree = std::numbers::pi / 180;
   constexpr int kAngles = 90;
+  constexpr double kGrazing = 88;  // degrees
   const auto reading = static_cast<float>(at.parameters.choice("reading"));
   const auto sun = static_cast<float>(at.parameters.number("sun_height") * kDegree);
   const auto input = [&](double degrees, double azimuth) {
     return glm::vec4(degrees * kDegree, sun, azimuth * kDegree, reading);
   };
-  std::vector<glm::vec4> inputs{input(0, 0), input(at.parameters.number("grazing"), 0)};
+  std::vector<glm::vec4> inputs{input(0, 0), input(kGrazing, 0)};
   for (int degrees = 0; degrees < kAngles; ++degrees) inputs.push_back(input(degrees, 60));
   const auto context = open_context(options.renderer, 64, 64);
   const std::vector<float> shares = evaluate(*context, Probe::kReflectance, inputs);

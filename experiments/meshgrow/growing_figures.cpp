@@ -340,18 +340,10 @@ constexpr auto kFigures = std::to_array<Figure>({
      "and random displacements",
      draw_ridges},
 });
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "meshgrow", test_case, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kGrowingFigures{
-    "meshgrow.growing-figures", "Figures 6 to 10: growing, and a trunk that forks", kSpecs, cases, draw};
+extern const Experiment kGrowingFigures = figures::figure_experiment<kFigures>(
+    "meshgrow.growing-figures", "Figures 6 to 10: growing, and a trunk that forks");
 
 }  // namespace terrabench::meshgrow

@@ -142,8 +142,7 @@ Sheet draw_fractal(Drawing& drawing) {
                                                                  : fmt::format("after {} steps", steps)});
     }
   }
-  Sheet sheet = panel_sheet(rows);
-  return sheet;
+  return panel_sheet(rows);
 }
 
 // A curved patch with texture coordinates.
@@ -332,18 +331,10 @@ constexpr std::array<figures::Figure, 5> kFigures{{
      "texture, here a checkerboard",
      draw_stretched},
 }};
-constexpr std::array kNames = names_of(kFigures);
-const std::array kSpecs{choice("figure", kNames, "figure of the paper")};
-
-std::vector<Case> cases(const RunOptions&) { return cases_by("figure", kSpecs); }
-
-void draw(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
-  draw_figure(kFigures, "meshgrow", test_case, options, recorder);
-}
 
 }  // namespace
 
-extern const Experiment kSubdivisionFigures{"meshgrow.subdivision-figures",
-                                            "Figures 1 to 5: generalised subdivision", kSpecs, cases, draw};
+extern const Experiment kSubdivisionFigures = figures::figure_experiment<kFigures>(
+    "meshgrow.subdivision-figures", "Figures 1 to 5: generalised subdivision");
 
 }  // namespace terrabench::meshgrow

@@ -35,6 +35,7 @@ constexpr RefinementOptions kCornersStay{.boundary = Boundary::kEdgeAndCorner};
 constexpr std::array<std::string_view, 2> kAxes{"normal", "up"};
 constexpr std::array<std::string_view, 2> kPlacements{"standard", "linear"};
 constexpr std::uint32_t kBaseCells = 4;
+constexpr int kSurfaces = 8;
 constexpr int kFirstFrequency = 4;  // cycles per side of the plane; lower ones have too few waves
 
 const std::array kSpectrumSpecs{
@@ -42,7 +43,6 @@ const std::array kSpectrumSpecs{
     choice("along", kAxes, "direction of the displacements: local normals, or one for all"),
     choice("placement", kPlacements, "before displacement"),
     ParameterSpec{"levels", std::int64_t{7}, "", "refinements of 4 × 4 cells", 5, 10},
-    ParameterSpec{"seeds", std::int64_t{8}, "", "surfaces", 1, 64},
     ParameterSpec{"amplitude", 0.05, "scale factors", "largest displacement at the first level", 0.001, 1},
 };
 
@@ -156,7 +156,7 @@ void measure_spectrum(const Case& test_case, const RunOptions& options, Recorder
   const Refinement refinement(base, levels, kCornersStay);
   const std::size_t n = std::size_t{kBaseCells} << static_cast<unsigned>(levels);
   std::vector<double> slopes;
-  for (int k = 0; k < test_case.integer("seeds"); ++k) {
+  for (int k = 0; k < kSurfaces; ++k) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(k);
     LevelPoints points{base.positions, base.texture};
     for (int level = 0; level < levels; ++level) {

@@ -34,8 +34,7 @@ constexpr std::array<std::string_view, 3> kMeshes{"plane", "sphere", "prism"};
 const std::array kSpecs{
     choice("mesh", kMeshes,
            "base mesh: all vertices regular, or extraordinary ones with 3, or 3 and 5 faces"),
-    ParameterSpec{"displaced", std::int64_t{2}, "", "steps with random displacements", 0, 5},
-    ParameterSpec{"steps", std::int64_t{6}, "", "standard steps after them", 2, 8},
+    ParameterSpec{"steps", std::int64_t{6}, "", "standard steps after two with random displacements", 2, 8},
     ParameterSpec{"amplitude", 0.15, "scale factors", "largest displacement", 0, 1},
 };
 
@@ -95,16 +94,15 @@ void record_step(Recorder& recorder, int step, int last, const Distances& now, c
 
 void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string& name = test_case.parameters.text("mesh");
-  const std::int64_t displaced = test_case.parameters.integer("displaced");
-  const FaceMesh start = rough_mesh(name, displaced, test_case.parameters.number("amplitude"), options.seed);
+  const FaceMesh start = rough_mesh(name, 2, test_case.parameters.number("amplitude"), options.seed);
   const int steps = test_case.integer("steps");
   const Refinement refinement(start, steps, kCornersStay);
   std::vector<std::size_t> followed;
   for (std::uint32_t v = 0; v < refinement.topology(0).vertices; ++v) {
     const std::size_t faces = refinement.topology(0).uses_of(v).size();
-    // All inner vertices of the plane have 4 faces. Without a displaced step, the prism has pentagons.
+    // All inner vertices of the plane have 4 faces.
     const bool inner = name != "plane" || faces == 4;
-    followed.push_back(inner && displaced > 0 ? faces : 0);
+    followed.push_back(inner ? faces : 0);
   }
   const std::vector<std::vector<glm::dvec3>> points =
       standard_points(refinement, {start.positions.begin(), start.positions.end()});

@@ -6,16 +6,11 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
 #include "experiments/mrbsp/extruded_profile.h"
-#include "lod/mrbsp/mrbsp.h"
-#include "results/plot/plot.h"
-#include "terrain/image.h"
-#include "terrain/view.h"
 
 namespace terrabench::mrbsp {
 
-// Figure 1 (lod_figure.cpp): the triangles that level of detail of the given size draws without the extra
-// step against holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
-inline constexpr Rgb kHole{255, 0, 170};  // of pixels that look through a hole
+// Figure 1 (lod_figure.cpp): the triangles that level of detail of size 1 draws without the extra step against
+// holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
 struct LodPanel {
   std::size_t hole_pixels = 0;
   std::size_t bare_pixels = 0;  // by the meter of all methods (bare_pixels.h), which counts hidden holes too
@@ -27,8 +22,7 @@ struct LodSheet {
   // Thresholds of the triangle T: at its right angle, and the lower one of the other two; 0 if there is none.
   int threshold_at_right_angle = 0, threshold_beside = 0;
 };
-View lod_view(const Heightfield&, const Mrbsp&);
-LodSheet lod_sheet(const Heightfield&, double size, const RunOptions&, Progress&);
+LodSheet lod_sheet(const Heightfield&, const RunOptions&, Progress&);
 
 // Figure 2 and table 1 (profile_figures.cpp). The table has printed and computed rows side by side, for all
 // steps in either.
@@ -38,13 +32,5 @@ struct ProfileSheet {
 };
 ProfileSheet profile_sheet(std::span<const float> profile, std::span<const ProfileStep>);
 figures::Sheet table_sheet(std::span<const PrintedStep>, std::span<const ProfileStep>);
-
-// Apparent size of triangles against distance on level ground of side² samples (threshold.cpp): the formula
-// as printed, then the one for areas. Labels give the slopes.
-Heightfield level_ground(int side);
-Plot threshold_plot(const Heightfield& level, Progress&);
-
-// A drawing and the land made from it (landscape.cpp). Throws as open_context() does.
-figures::Sheet landscape_sheet(const Image& drawing, const Heightfield& land, const RunOptions&);
 
 }  // namespace terrabench::mrbsp

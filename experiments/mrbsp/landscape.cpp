@@ -8,7 +8,6 @@
 #include "experiments/experiment.h"
 #include "experiments/figures/ground.h"
 #include "experiments/figures/maps.h"
-#include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
 #include "renderers/ramp.h"
 #include "renderers/scene.h"
@@ -84,6 +83,42 @@ Rgb ramp_rgb(double t) { return srgb_bytes(ramp_color(static_cast<float>(t))); }
 
 std::vector<Case> cases(const RunOptions&) { return {Case{"drawing", Parameters(kSpecs), ""}}; }
 
+// A drawing and the land made from it.
+figures::Sheet landscape_sheet(const Image& picture, const Heightfield& field, const RunOptions& options) {
+  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
+  const HeightRange range = height_range(field);
+  const auto surface = [&](int i, int j) {
+    return glm::vec3(static_cast<float>(i) * field.cell_x, field.at(i, j),
+                     static_cast<float>(j) * field.cell_z);
+  };
+  const TriangleMesh walls = figures::block_sides(field.width, field.depth, surface, range.lowest);
+  TriangleMesh mesh = figures::ground_mesh(field);
+  compute_normals(mesh);
+  const auto context = open_context(options.renderer, 64, 64);
+  Scene scene;
+  scene.lowest = 0;
+  scene.highest = range.highest;
+  scene.meshes = {{.mesh = &mesh},
+                  {.mesh = &walls, .colors = std::vector<Rgb>(walls.positions.size(), {196, 180, 158})}};
+  const float east = field.extent_x(), south = field.extent_z();
+  scene.planes = {{.corners = {{0, 0, 0}, {0, 0, south}, {east, 0, south}, {east, 0, 0}},
+                   .fill_opacity = 0.75F,
+                   .line_width = 1}};
+  const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
+  figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
+  sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
+  sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
+  sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
+             "middle");
+  const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
+  sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
+             15);
+  figures::add_colour_key(
+      sheet, land + kWide - 250, below - 11, "height, m", 70, 160, ramp_rgb,
+      {"0", fmt::format("{:.0f}", range.highest / 2), fmt::format("{:.0f}", range.highest)});
+  return sheet;
+}
+
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress&) {
   const Image picture = example_drawing(at.integer("n"), options.seed);
   DrawingOptions adjust;
@@ -121,41 +156,6 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
 }
 
 }  // namespace
-
-figures::Sheet landscape_sheet(const Image& picture, const Heightfield& field, const RunOptions& options) {
-  constexpr double kPicture = 340, kWide = 620, kMargin = 20;
-  const HeightRange range = height_range(field);
-  const auto surface = [&](int i, int j) {
-    return glm::vec3(static_cast<float>(i) * field.cell_x, field.at(i, j),
-                     static_cast<float>(j) * field.cell_z);
-  };
-  const TriangleMesh walls = figures::block_sides(field.width, field.depth, surface, range.lowest);
-  TriangleMesh mesh = figures::ground_mesh(field);
-  compute_normals(mesh);
-  const auto context = open_context(options.renderer, 64, 64);
-  Scene scene;
-  scene.lowest = 0;
-  scene.highest = range.highest;
-  scene.meshes = {{.mesh = &mesh},
-                  {.mesh = &walls, .colors = std::vector<Rgb>(walls.positions.size(), {196, 180, 158})}};
-  const float east = field.extent_x(), south = field.extent_z();
-  scene.planes = {{.corners = {{0, 0, 0}, {0, 0, south}, {east, 0, south}, {east, 0, 0}},
-                   .fill_opacity = 0.75F,
-                   .line_width = 1}};
-  const View view = overview(bounds_of(mesh), static_cast<int>(2 * kWide), static_cast<int>(2 * kPicture));
-  figures::Sheet sheet(kPicture + kWide + 3 * kMargin, kPicture + 2 * kMargin + 40);
-  sheet.picture(kMargin, kMargin, kPicture, kPicture, picture);
-  sheet.picture(kPicture + 2 * kMargin, kMargin, kWide, kPicture, render_scene(*context, scene, view));
-  sheet.text(kMargin + kPicture / 2, kPicture + kMargin + 24, "drawing: black is sea, white a peak", 15,
-             "middle");
-  const double land = kPicture + 2 * kMargin, below = kPicture + kMargin + 24;
-  sheet.text(land + 20, below, fmt::format("land, {:.1f} km across, with the sea", field.extent_x() / 1000),
-             15);
-  figures::add_colour_key(
-      sheet, land + kWide - 250, below - 11, "height, m", 70, 160, ramp_rgb,
-      {"0", fmt::format("{:.0f}", range.highest / 2), fmt::format("{:.0f}", range.highest)});
-  return sheet;
-}
 
 extern const Experiment kDrawing{"mrbsp.drawing", "§1: land from drawings", kSpecs, cases, measure};
 

@@ -14,6 +14,7 @@
 #include "experiments/mrbsp/ground.h"
 #include "lod/meters/bare_pixels.h"
 #include "lod/mrbsp/lod_rule.h"
+#include "lod/mrbsp/mrbsp.h"
 #include "renderers/frame_renderer.h"
 #include "renderers/scene.h"
 #include "results/store/format.h"
@@ -26,7 +27,8 @@ using figures::SheetPoint;
 
 constexpr int kWidth = 960, kHeight = 540;  // of a panel, units of the sheet
 constexpr double kTitle = 30, kLabelSize = 12;
-constexpr Rgb kPaper{255, 255, 255}, kInk{20, 20, 20}, kMark{0, 51, 153};
+constexpr Rgb kPaper{255, 255, 255}, kInk{20, 20, 20}, kMark{0, 51, 153},
+    kHole{255, 0, 170};  // of pixels that look through a hole
 
 // Upright triangles that close the gaps of a frame, each twice, for both sides: a pixel that shows one looks
 // through a hole. A gap lies where the middle of a triangle's edge is a corner of the triangles beyond it.
@@ -220,7 +222,7 @@ std::vector<Case> cases(const RunOptions&) { return {Case{"real-257", Parameters
 
 void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
   const TerrainSource source = recorder.terrain(open_ground(at.terrain, options.seed));
-  const LodSheet drawn = lod_sheet(*source.heights, 1, options, progress);
+  const LodSheet drawn = lod_sheet(*source.heights, options, progress);
   for (const auto& [panel, numbers] : {std::pair{"without", drawn.without}, {"with", drawn.with}}) {
     recorder.add(fmt::format("hole_pixels_{}", panel), "px", numbers.hole_pixels);
     recorder.add(fmt::format("bare_pixels_{}", panel), "px", numbers.bare_pixels);
@@ -236,8 +238,6 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
       "in (b) it is drawn as two halves (dashed)."));
 }
 
-}  // namespace
-
 View lod_view(const Heightfield& ground, const Mrbsp& lod) {
   View view;
   view.width = kWidth * Sheet::kPixels;
@@ -251,12 +251,14 @@ View lod_view(const Heightfield& ground, const Mrbsp& lod) {
   return view;
 }
 
-LodSheet lod_sheet(const Heightfield& ground, double size, const RunOptions& options, Progress& progress) {
+}  // namespace
+
+LodSheet lod_sheet(const Heightfield& ground, const RunOptions& options, Progress& progress) {
   const int depth = depth_over(ground);
   Mrbsp without(ground, {.depth = depth, .holes = HoleRule::kNone}, progress);
   Mrbsp with(ground, {.depth = depth, .holes = HoleRule::kPrinted}, progress);
-  without.tune(size);
-  with.tune(size);
+  without.tune(1);
+  with.tune(1);
   const View view = lod_view(ground, with);
   LodPicture open(ground, without, view, options), closed(ground, with, view, options);
   LodSheet drawn{Sheet(kWidth, 2 * (kTitle + kHeight)), open.numbers(), closed.numbers()};

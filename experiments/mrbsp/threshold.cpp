@@ -10,8 +10,9 @@
 
 #include "experiments/experiment.h"
 #include "experiments/figures/sheet.h"
-#include "experiments/mrbsp/figures.h"
 #include "experiments/mrbsp/ground.h"
+#include "lod/mrbsp/mrbsp.h"
+#include "results/plot/plot.h"
 
 namespace terrabench::mrbsp {
 namespace {
@@ -67,10 +68,29 @@ std::string slope_text(double slope) {
   return fmt::format("{}{:.2f}", slope < -0.005 ? "−" : "", std::abs(slope));
 }
 
+// The formula as printed, then the one for areas. Labels give the slopes.
+Plot threshold_plot(const Heightfield& level, Progress& progress) {
+  Plot plot{
+      .title = "Apparent size of triangles against distance",
+      .x = {.label = "distance of the furthest corner", .unit = "short sides of the finest", .log = true},
+      .y = {.label = "apparent short side", .unit = "pixels", .log = true},
+      .series = {}};
+  for (const bool area : {false, true}) {
+    std::vector<PlotPoint> points = apparent_sizes(level, area, progress);
+    const std::optional<double> slope = power_law(points);
+    plot.series.push_back(
+        {.label = fmt::format("{}, slope {}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed",
+                              slope ? slope_text(*slope) : "–"),
+         .points = std::move(points)});
+  }
+  return plot;
+}
+
 std::vector<Case> cases(const RunOptions&) { return {Case{"level", Parameters(kSpecs), ""}}; }
 
 void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& progress) {
-  const Heightfield ground = level_ground(at.integer("n"));
+  const int n = at.integer("n");
+  const Heightfield ground = Heightfield::zeros(n, n, 30, 30);
   recorder.terrain("level", checksum(ground));
   const Plot plot = threshold_plot(ground, progress);
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
@@ -90,31 +110,6 @@ void measure(const Case& at, const RunOptions&, Recorder& recorder, Progress& pr
 }
 
 }  // namespace
-
-Heightfield level_ground(int side) {
-  Heightfield ground;
-  ground.width = ground.depth = side;
-  ground.cell_x = ground.cell_z = 30;
-  ground.heights.assign(static_cast<std::size_t>(side) * side, 0.0F);
-  return ground;
-}
-
-Plot threshold_plot(const Heightfield& level, Progress& progress) {
-  Plot plot{
-      .title = "Apparent size of triangles against distance",
-      .x = {.label = "distance of the furthest corner", .unit = "short sides of the finest", .log = true},
-      .y = {.label = "apparent short side", .unit = "pixels", .log = true},
-      .series = {}};
-  for (const bool area : {false, true}) {
-    std::vector<PlotPoint> points = apparent_sizes(level, area, progress);
-    const std::optional<double> slope = power_law(points);
-    plot.series.push_back(
-        {.label = fmt::format("{}, slope {}", area ? "M − 2 log₂(D/S)" : "M − log₂(D/S), as printed",
-                              slope ? slope_text(*slope) : "–"),
-         .points = std::move(points)});
-  }
-  return plot;
-}
 
 extern const Experiment kThreshold{"mrbsp.threshold", "§3: apparent size of triangles against distance",
                                    kSpecs, cases, measure};

@@ -138,7 +138,7 @@ void record_misses(const Heightfield& ground, Mrbsp& full, const visibility::Set
   const visibility::CoarseSquares squares(full.tree(), sets.depth);
   std::mt19937_64 random(options.seed);
   const auto random_share = [&] { return static_cast<float>(random() >> 40) / 16777216.0F; };
-  const int eyes = options.profile == Profile::kPaper ? 100 : 20;
+  const int eyes = options.profile == Profile::kPaper ? 100 : 10;
   Misses misses;
   progress.begin("looking around", static_cast<std::uint64_t>(eyes));
   for (int e = 0; e < eyes; ++e) {

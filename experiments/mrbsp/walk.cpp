@@ -161,19 +161,20 @@ std::vector<Case> cases(const RunOptions& options) {
                        ground});
     };
     // Drawing a frame takes a hundred times as long as counting its triangles.
-    const int pictures = paper ? kViews : ground == "rough-257" ? 0 : 80;
+    const int pictures = paper ? kViews : ground == "rough-257" ? 0 : 40;
     const int frames = paper || ground == kPapersGround ? kTimedViews : 0;
     add("printed", 1, visibility::Mode::kSampled, kCellsAlong, frames, 0);
     add("matched", 0, visibility::Mode::kSampled, 0, frames, 0);
     add("fitted", 0, visibility::Mode::kSampled, kCellsAlong, 0, pictures);
     for (const visibility::Mode sets : {visibility::Mode::kVertices, visibility::Mode::kFacing,
                                         visibility::Mode::kInterior, visibility::Mode::kConservative}) {
-      // Of the other readings, a third of the pictures.
+      // Of the other readings at most a third of the walk, and in quick on one ground.
       const bool safe = sets == visibility::Mode::kConservative;
       add(name_of(sets), 0, sets, kCellsAlong, 0,
-          safe                               ? pictures
-          : paper || ground == kPapersGround ? 80
-                                             : 0);
+          safe                      ? pictures
+          : paper                   ? kViews / 3
+          : ground == kPapersGround ? pictures
+                                    : 0);
     }
   }
   return cases;

@@ -40,31 +40,31 @@ std::string check_json(const JudgedResults& results) {
   Json rows = Json::array();
   for (const Judgement& judgement : results.judgements) {
     const Claim& claim = *judgement.claim;
-    rows.push_back(
-        {{"id", claim.id},
-         {"paper", judgement.paper->id},
-         {"where", claim.where},
-         {"statement", claim.statement},
-         {"class", std::string(1, claim.claim_class)},
-         {"group", name(claim.group)},
-         {"is", name(claim.varies)},
-         {"of", claim.of},
-         {"reported", claim.reported},
-         {"unit", claim.unit},
-         {"tolerance", claim.tolerance},
-         {"verdict", name(judgement.verdict)},
-         {"known", claim.pending.empty() ? name(claim.known()) : name(Verdict::kPending)},
-         {"fails", formulas(claim, Condition::Expected::kFails)},
-         {"may_fail", formulas(claim, Condition::Expected::kEither)},
-         {"measured", judgement.measured},
-         {"decided_by", judgement.deciding.text},
-         {"reason",
-          claim.known() == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers ? claim.reason() : ""},
-         {"matches", claim.matches},
-         {"cause", claim.cause},
-         {"note", claim.note},
-         {"complaint", judgement.complaint},
-         {"runs", judgement.runs}});
+    rows.push_back({{"id", claim.id},
+                    {"paper", judgement.paper->id},
+                    {"where", claim.where},
+                    {"statement", claim.statement},
+                    {"class", std::string(1, claim.claim_class)},
+                    {"group", name(claim.group)},
+                    {"is", name(claim.varies)},
+                    {"of", claim.of},
+                    {"reported", claim.reported},
+                    {"unit", claim.unit},
+                    {"tolerance", claim.tolerance},
+                    {"verdict", name(judgement.verdict)},
+                    {"expected", name(claim.expected())},
+                    {"fails", formulas(claim, Condition::Expected::kFails)},
+                    {"may_fail", formulas(claim, Condition::Expected::kEither)},
+                    {"measured", judgement.measured},
+                    {"decided_by", judgement.deciding.text},
+                    {"reason", claim.expected() == Verdict::kDiffers || judgement.verdict == Verdict::kDiffers
+                                   ? claim.reason()
+                                   : ""},
+                    {"matches", claim.matches},
+                    {"cause", claim.cause},
+                    {"note", claim.note},
+                    {"check_failure", judgement.check_failure},
+                    {"runs", judgement.runs}});
   }
   Json papers = Json::object();
   for (const Judgement& judgement : results.judgements) {
@@ -92,9 +92,9 @@ std::string check_junit(const JudgedResults& results) {
   };
   for (const Judgement& judgement : results.judgements) {
     std::string inside = fmt::format("<system-out>{}</system-out>", escape_html(judgement.measured));
-    if (!judgement.complaint.empty()) {
+    if (!judgement.check_failure.empty()) {
       ++failures;
-      inside = fmt::format("<failure message=\"{}\">{}</failure>", escape_html(judgement.complaint),
+      inside = fmt::format("<failure message=\"{}\">{}</failure>", escape_html(judgement.check_failure),
                            escape_html(judgement.measured));
     } else if (!was_measured(judgement.verdict)) {
       ++skipped;

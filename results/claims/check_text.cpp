@@ -15,7 +15,7 @@ constexpr std::size_t kWidestId = 30;  // a longer id moves the rest of its own 
 constexpr std::size_t kLeastName = 8;  // columns for a figure's name; with fewer it is left out
 
 std::string_view colour_of(const Judgement& judgement) {
-  if (!judgement.complaint.empty()) return kRed;
+  if (!judgement.check_failure.empty()) return kRed;
   const bool good = judgement.verdict == Verdict::kReproduced || judgement.verdict == Verdict::kShape;
   return good ? kGreen : kYellow;
 }
@@ -45,7 +45,6 @@ class Writer {
     write_failing();
     for (const Paper* const paper : papers_) write_paper(*paper);
     write_ids(Verdict::kNotRun);
-    write_ids(Verdict::kPending);
     write_absences();
     write_summary();
     return std::move(text_);
@@ -55,7 +54,7 @@ class Writer {
   void write_failing() {
     std::vector<Judgement> failing;
     std::ranges::copy_if(results_.judgements, std::back_inserter(failing),
-                         [](const Judgement& j) { return !j.complaint.empty(); });
+                         [](const Judgement& j) { return !j.check_failure.empty(); });
     const std::size_t all = results_.judgements.size();
     text_ += failing.empty() ? fmt::format("Profile {}: {} rows, {}\n", results_.profile, all,
                                            judged_none() ? "none of them judged: none was measured"
@@ -102,7 +101,7 @@ class Writer {
   }
 
   // One line per claim, its columns as wide as these claims need.
-  void write_lines(const std::vector<Judgement>& judgements, bool with_complaints) {
+  void write_lines(const std::vector<Judgement>& judgements, bool with_failures) {
     std::size_t id = 0, verdict = 0, value = 0, expected = 0;
     for (const Judgement& j : judgements) {
       id = std::max(id, std::min(kWidestId, characters(j.claim->id)));
@@ -121,8 +120,8 @@ class Writer {
       }
       text_ += fmt::format("{}{}{:<{}}{}  {}\n", start, paint(colour_of(j)), name(j.verdict), verdict,
                            paint(kPlain), cut(rest, left));
-      if (with_complaints) {
-        text_ += wrapped(j.complaint, 4, width_);
+      if (with_failures) {
+        text_ += wrapped(j.check_failure, 4, width_);
         continue;
       }
       if (look_.verbose) {

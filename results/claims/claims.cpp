@@ -14,7 +14,7 @@ namespace terrabench {
 namespace {
 
 constexpr std::string_view kVerdicts[] = {
-    "reproduced", "reproduced (shape)", "differs", "not comparable", "pending", "not run", "missing"};
+    "reproduced", "reproduced (shape)", "differs", "not comparable", "not run", "missing"};
 constexpr std::string_view kGroupNames[] = {"stated in the paper", "figures drawn", "beyond the paper"};
 constexpr std::string_view kVariations[] = {"claim", "reading", "setting", "ground"};
 constexpr std::string_view kAllProfiles[] = {"quick", "paper"};
@@ -90,17 +90,13 @@ Claim claim_from(const TomlValue& node, bool usually_beyond, const Claim* first)
   claim.unit = entry.text_or("unit", "");
   claim.tolerance = entry.text_or("tolerance", "");
   claim.note = entry.text_or("note", "");
-  claim.pending = entry.text_or("pending", "");
   claim.not_comparable = entry.text_or("not_comparable", "");
   claim.machine = entry.text_or("machine", "");
   claim.profiles = profiles_from(entry);
   for (const TomlValue& condition : entry.list("check"))
     claim.conditions.push_back(condition_from(condition));
-  const bool measured = claim.pending.empty() && claim.not_comparable.empty();
-  if (measured == claim.conditions.empty()) {
-    entry.refuse(
-        fmt::format("{} needs either 'check' or a reason in 'pending' or 'not_comparable'", claim.id));
-  }
+  if (claim.not_comparable.empty() == claim.conditions.empty())
+    entry.refuse(fmt::format("{} needs either 'check' or a reason in 'not_comparable'", claim.id));
   claim.fails = patterns_from(entry, "fails");
   claim.may_fail = patterns_from(entry, "may_fail");
   claim.matches = entry.text_or("matches", "");
@@ -244,7 +240,7 @@ void check_references(Paper& paper, const std::string& origin) {
     if (match == paper.claims.end()) {
       fail(claim.id, fmt::format("'matches' is neither a claim's id nor a sentence: '{}'", claim.matches));
     }
-    if (!holds(match->known())) fail(claim.id, fmt::format("'{}' is not known to hold", match->id));
+    if (!holds(match->expected())) fail(claim.id, fmt::format("'{}' is not known to hold", match->id));
   }
   for (const Cause& cause : paper.causes) {
     if (std::ranges::count(paper.claims, cause.id, &Claim::cause) == 0)
@@ -258,7 +254,7 @@ std::string_view name(Verdict verdict) { return kVerdicts[static_cast<std::size_
 std::string_view name(Group group) { return kGroupNames[static_cast<std::size_t>(group)]; }
 std::string_view name(Variation varies) { return kVariations[static_cast<std::size_t>(varies)]; }
 
-Verdict Claim::known() const {
+Verdict Claim::expected() const {
   if (!not_comparable.empty()) return Verdict::kNotComparable;
   if (std::ranges::count(conditions, Condition::Expected::kFails, &Condition::expected) > 0)
     return Verdict::kDiffers;
@@ -279,7 +275,7 @@ std::vector<std::string_view> Claim::experiments() const {
 }
 
 std::string Claim::reason() const {
-  if (known() != Verdict::kDiffers && !machine.empty()) return machine;
+  if (expected() != Verdict::kDiffers && !machine.empty()) return machine;
   if (note.empty()) return cause_title.empty() ? "" : cause_title + ".";
   const std::size_t end = note.find(". ");
   return end == std::string::npos ? note : note.substr(0, end + 1);

@@ -22,13 +22,12 @@ enum class Verdict {
   kShape,       // ratio, slope or order inside the tolerance; absolute values depend on the paper's machine
   kDiffers,     // outside the tolerance
   kNotComparable,  // not even the shape can be measured; the claim says why
-  kPending,        // the method is not built yet
   kNotRun,         // the profile that was run does not measure it
   kMissing,        // it should be measured, but there is no measurement
 };
 std::string_view name(Verdict);
 inline bool holds(Verdict v) { return v <= Verdict::kShape; }
-inline bool was_measured(Verdict v) { return v != Verdict::kPending && v != Verdict::kNotRun; }
+inline bool was_measured(Verdict v) { return v != Verdict::kNotRun; }
 
 // A number, or a metric of a case: "experiment/case/metric". Case names may contain '/'.
 struct Operand {
@@ -109,7 +108,7 @@ struct Claim {
   // seen to hold on one machine and to fail on another, and `machine` says why.
   std::vector<std::string> fails, may_fail;
   std::string machine;
-  std::string pending, not_comparable;  // the reason; both empty if the claim is measured
+  std::string not_comparable;  // the reason; empty if the claim is measured
   // For claims known to differ: the id of the claim of the reading that matches, or a sentence that says that
   // none does.
   std::string matches;
@@ -118,7 +117,7 @@ struct Claim {
   std::string vague;  // what the paper leaves open, where this claim measures several readings; else empty
 
   // The expected verdict: differs if a condition is expected to fail. Those in `may_fail` do not count.
-  Verdict known() const;
+  Verdict expected() const;
   // Why it differs: if it is known to, the first sentence of `note`, or without a note the cause; otherwise
   // `machine`.
   std::string reason() const;

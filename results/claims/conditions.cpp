@@ -161,7 +161,7 @@ void expect_failures(std::span<Claim> claims, const std::string& origin) {
       if (may_fail) condition.expected = Condition::Expected::kEither;
     }
     const bool has_reason = !claim.note.empty() || !claim.cause.empty();
-    if (claim.known() == Verdict::kDiffers && (!has_reason || claim.matches.empty())) {
+    if (claim.expected() == Verdict::kDiffers && (!has_reason || claim.matches.empty())) {
       fail(claim,
            "'fails' needs a 'cause' or a 'note' with the reason, and 'matches': a claim's id or a sentence");
     }

@@ -29,7 +29,7 @@ std::string joined(const std::vector<ConditionResult>& results) {
 // What is not as expected; empty if all is.
 std::string unexpected(const Claim& claim, Verdict verdict, const std::vector<ConditionResult>& results) {
   if (verdict == Verdict::kMissing)
-    return fmt::format("expected verdict '{}', computed '{}'", name(claim.known()), name(verdict));
+    return fmt::format("expected verdict '{}', computed '{}'", name(claim.expected()), name(verdict));
   std::string text;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Condition::Expected expected = claim.conditions[i].expected;
@@ -77,11 +77,11 @@ void judge_measured(Judgement& judgement, const Store& store, const std::string&
   }
   judgement.measured = joined(results);
   if (evidence.altered) {
-    judgement.complaint = "rests on a record that was altered";
+    judgement.check_failure = "rests on a record that was altered";
   } else if (evidence.incomparable) {
-    judgement.complaint = "compares what was measured on different machines or builds";
+    judgement.check_failure = "compares what was measured on different machines or builds";
   } else {
-    judgement.complaint = unexpected(claim, judgement.verdict, results);
+    judgement.check_failure = unexpected(claim, judgement.verdict, results);
   }
 }
 
@@ -93,9 +93,6 @@ Judgement judge_claim(const Paper& paper, const Claim& claim, const Store& store
   if (!claim.not_comparable.empty()) {
     judgement.verdict = Verdict::kNotComparable;
     judgement.measured = claim.not_comparable;
-  } else if (!claim.pending.empty()) {
-    judgement.verdict = Verdict::kPending;
-    judgement.measured = claim.pending;
   } else if (!claim.measured_in(profile)) {
     judgement.verdict = Verdict::kNotRun;
     judgement.measured = fmt::format("measured in profile {}", fmt::join(claim.profiles, ", "));
@@ -170,7 +167,7 @@ void read_profile(const Store& store, JudgedResults& results) {
 bool JudgedResults::passed() const {
   return faults.empty() && std::ranges::count(absences, "failed", &Absence::what) == 0 &&
          std::ranges::any_of(judgements, [](const Judgement& j) { return j.verdict <= Verdict::kDiffers; }) &&
-         std::ranges::all_of(judgements, [](const Judgement& j) { return j.complaint.empty(); });
+         std::ranges::all_of(judgements, [](const Judgement& j) { return j.check_failure.empty(); });
 }
 
 std::span<const Judgement> JudgedResults::of(const Paper& paper) const {

@@ -3,9 +3,9 @@
 // 2. gather_evidence (evidence.h) reads these metrics from the records and evaluates each condition. Only
 //    records of one profile count, the newest record's unless another is chosen, of each case the newest.
 // 3. judge_measured() makes one verdict from the results: missing if one could not be evaluated, differs if
-//    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): pending or
-//    not comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
-// 4. Complaints, with which `terrabench check` exits with 1, only on claims that went through
+//    one fails, else reproduced ("shape" for claims of class S). Without evidence, judge_claim(): not
+//    comparable if the claim gives a reason for it, not run if that profile does not measure the claim.
+// 4. Check failures, with which `terrabench check` exits with 1, only on claims that went through
 //    judge_measured(): a condition that fails and is not named in the claim's `fails`, one that is named
 //    there and holds, a missing measurement, a record altered by hand, a comparison between different
 //    machines or builds.
@@ -26,9 +26,9 @@ namespace terrabench {
 struct Judgement {
   const Paper* paper = nullptr;
   const Claim* claim = nullptr;
-  Verdict verdict = Verdict::kPending;  // until judge_claim() finds another
-  std::string measured;                 // the results in full; or why nothing was measured
-  std::string stated;                   // that on the first condition, which is what the claim states
+  Verdict verdict = Verdict::kNotRun;  // until judge_claim() finds another
+  std::string measured;                // the results in full; or why nothing was measured
+  std::string stated;                  // that on the first condition, which is what the claim states
   // Decides the verdict: the first condition that was not measured, else the first that fails, else the one
   // with the least margin (ConditionResult::margin). Conditions without margin (equalities, pictures, ranges
   // of one value, a lower bound of 0 alone) decide only if an exact claim begins with one, or if no other has
@@ -36,7 +36,7 @@ struct Judgement {
   ConditionResult deciding;
   std::size_t deciding_condition = 0;  // its index in the claim's conditions
   std::vector<std::string> runs;       // ids of the runs that it rests on
-  std::string complaint;               // why `check` fails at this claim; empty when it does not
+  std::string check_failure;           // why `check` fails at this claim; empty when it does not
 };
 
 struct JudgedResults {
@@ -49,7 +49,7 @@ struct JudgedResults {
   std::vector<std::string> ignored = {};
   std::size_t left_out = 0;  // claims that were not asked for, since an experiment that they read was not run
 
-  bool passed() const;  // some claim was judged by measurements; no complaint, no fault, no failed case
+  bool passed() const;  // some claim was judged by measurements; no check failure, no fault, no failed case
   std::span<const Judgement> of(const Paper&) const;
 };
 

@@ -33,10 +33,8 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
 }
 
 bool same_ground(const Record& a, const Record& b) {
-  auto left = a.parameters, right = b.parameters;
-  std::sort(left.begin(), left.end());
-  std::sort(right.begin(), right.end());
-  return a.seed == b.seed && left == right && a.terrain_checksum == b.terrain_checksum;
+  return a.seed == b.seed && same_values(a.parameters, b.parameters) &&
+         a.terrain_checksum == b.terrain_checksum;
 }
 
 MetricChange described(const Record& record, const Metric& metric, Change change) {

@@ -77,7 +77,7 @@ class Page {
   }
 
   // A failure that nobody expected has another reason.
-  static std::string cause_of(const Judgement& j) { return j.complaint.empty() ? j.claim->cause : ""; }
+  static std::string cause_of(const Judgement& j) { return j.check_failure.empty() ? j.claim->cause : ""; }
 
   static Cell id_cell(const Claim& claim) { return {.text = claim.id, .link = "ledger.*#" + claim.id}; }
 

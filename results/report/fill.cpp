@@ -137,8 +137,8 @@ std::optional<double> conversion(std::string_view from, std::string_view to) {
 
 Cell verdict_cell(const Judgement& judgement) {
   // The style is the verdict's last word, such as "shape" or "run".
-  constexpr std::string_view kStyles[] = {"reproduced", "shape", "differs", "incomparable",
-                                          "pending",    "unrun", "missing"};
+  constexpr std::string_view kStyles[] = {"reproduced",   "shape", "differs",
+                                          "incomparable", "unrun", "missing"};
   return {std::string(name(judgement.verdict)), "", "",
           "verdict " + std::string(kStyles[static_cast<std::size_t>(judgement.verdict)])};
 }

@@ -63,7 +63,6 @@ class Report {
     add_unclaimed_cases();
     add_section({2, "Without measurements", "absent"}, absence_table(results_));
     add_other_pictures();
-    add_section({2, "Pending", "pending"}, pending_table(results_));
     add(provenance(store_));
     write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
     document_.push_back(
@@ -84,7 +83,7 @@ class Report {
         results_.profile)});
     for (const std::string& ignored : results_.ignored) document_.push_back(Paragraph{ignored + ".", true});
     add_warning(document_);
-    add_complaints();
+    add_check_failures();
     add_summary();
     if (std::ranges::count(results_.absences, "failed", &Absence::what) > 0) {
       document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
@@ -100,16 +99,16 @@ class Report {
   }
 
   // Claims of which nothing was measured are many after a run on a ground of the user's: the first are named.
-  void add_complaints() {
+  void add_check_failures() {
     constexpr std::size_t kNamed = 3;
     std::vector<std::string> unmeasured;
     for (const Judgement& judgement : results_.judgements) {
-      if (judgement.complaint.empty()) continue;
+      if (judgement.check_failure.empty()) continue;
       if (judgement.verdict == Verdict::kMissing && judgement.runs.empty()) {
         unmeasured.push_back(judgement.claim->id);
       } else {
         document_.push_back(
-            Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.complaint), true});
+            Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.check_failure), true});
       }
     }
     if (unmeasured.empty()) return;
@@ -242,15 +241,9 @@ class Report {
 
   void add_summary() {
     Table table = summary_table(results_, papers_);
-    const bool pending = !pending_table(results_).rows.empty();
     for (std::vector<Cell>& row : table.rows) {
       const auto paper = std::ranges::find(papers_, row[0].text, &Paper::title);
-      if (paper == papers_.end()) continue;
-      if (has_results(*paper)) {
-        row[0].link = "#" + paper->id;
-      } else if (pending) {
-        row[0].link = "#pending";
-      }
+      if (paper != papers_.end() && has_results(*paper)) row[0].link = "#" + paper->id;
     }
     write_file(out_ / "tables/summary.md", markdown(table));  // README.md shows it
     add_table(std::move(table), {});

@@ -124,7 +124,7 @@ Facts claim_notes(const JudgedResults& results, const Paper& paper) {
   Facts notes;
   for (const Judgement& judgement : results.of(paper)) {
     const Claim& claim = *judgement.claim;
-    if (judgement.verdict == Verdict::kPending || claim.note.empty()) continue;
+    if (claim.note.empty()) continue;
     // Claims of one table often share a note.
     if (!notes.lines.empty() && notes.lines.back().second == claim.note) {
       notes.lines.back().first += ", " + claim.id;
@@ -133,20 +133,6 @@ Facts claim_notes(const JudgedResults& results, const Paper& paper) {
     }
   }
   return notes;
-}
-
-Table pending_table(const JudgedResults& results) {
-  Table table{"pending-rows",
-              "Claims that wait for their method",
-              "They do not count against a run.",
-              {{"Claim"}, {"The paper"}, {"Why"}},
-              {}};
-  for (const Judgement& judgement : results.judgements) {
-    if (judgement.verdict != Verdict::kPending) continue;
-    table.rows.push_back(
-        {{judgement.claim->id}, {where_and_statement(*judgement.claim)}, {judgement.measured}});
-  }
-  return table;
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// The report's own tables, which no claims file lays out: verdicts, notes, pending claims, provenance.
+// The report's own tables, which no claims file lays out: verdicts, notes, provenance.
 #pragma once
 
 #include <span>
@@ -13,10 +13,8 @@ namespace terrabench {
 std::string standings_sentence(const JudgedResults&);
 // How many statements of each paper, and of all, hold: one row per paper.
 Table summary_table(const JudgedResults&, std::span<const Paper>);
-// The notes of one paper's claims, except pending ones.
+// The notes of one paper's claims.
 Facts claim_notes(const JudgedResults&, const Paper&);
-// The claims of all papers whose method is not built yet.
-Table pending_table(const JudgedResults&);
 
 // "Table 1: memory grows …"; what the paper prints, with its unit, or a dash.
 std::string where_and_statement(const Claim&);

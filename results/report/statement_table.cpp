@@ -36,7 +36,7 @@ std::string why(const Statement& statement, const Paper& paper) {
   const auto cause = std::ranges::find(paper.causes, claim.cause, &Cause::id);
   // An unexpected failure, or nothing measured, has another reason than the cause.
   if (cause != paper.causes.end() && statement.claim->verdict == Verdict::kDiffers &&
-      statement.claim->complaint.empty()) {
+      statement.claim->check_failure.empty()) {
     add(cause->title + ".");
   } else {
     add(why_not(*statement.claim));
@@ -71,10 +71,10 @@ std::string decided_by(const Judgement& j) {
 }
 
 std::string why_not(const Judgement& j) {
-  if (holds(j.verdict)) return j.complaint;
+  if (holds(j.verdict)) return j.check_failure;
   if (j.verdict != Verdict::kDiffers) return j.measured;
   // The note explains the known verdict, not one that nobody expected.
-  if (!j.complaint.empty()) return j.complaint;
+  if (!j.check_failure.empty()) return j.check_failure;
   if (j.claim->matches.empty()) return j.claim->reason();
   return fmt::format("{} Matches: {}", j.claim->reason(), j.claim->matches);
 }

@@ -268,13 +268,14 @@ const Record* Store::find(std::string_view experiment, std::string_view case_nam
   return it == places_.end() ? nullptr : &records_[it->second];
 }
 
-const Record* Store::find(const CaseKey& key, const Provenance& now) const {
-  const Record* const record = find(key.experiment, key.case_name, key.profile);
+const Record* Store::find(const Record& planned, const Provenance& now) const {
+  const Record* const record = find(planned.experiment, planned.case_name, planned.profile);
   if (record == nullptr || altered(*record)) return nullptr;
   const Provenance* const measured_under = run(record->run);
   if (measured_under == nullptr || !comparable(*measured_under, now)) return nullptr;
-  if (record->seed != key.seed || !same_values(record->parameters, key.parameters)) return nullptr;
-  if (key.terrain_checksum && record->terrain_checksum != *key.terrain_checksum) return nullptr;
+  if (record->seed != planned.seed || !same_values(record->parameters, planned.parameters)) return nullptr;
+  if (!planned.terrain_checksum.empty() && record->terrain_checksum != planned.terrain_checksum)
+    return nullptr;
   const bool pictures =
       std::ranges::all_of(record->figures, [&](const RecordedFigure& figure) { return intact(figure); });
   return pictures ? record : nullptr;

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,14 +18,6 @@
 #include "results/store/record.h"
 
 namespace terrabench {
-
-// Identifies a case for --resume, which skips cases that are already measured.
-struct CaseKey {
-  std::string_view experiment, case_name, profile;
-  std::vector<std::pair<std::string, Value>> parameters;  // in any order
-  std::uint64_t seed = 0;
-  std::optional<std::string_view> terrain_checksum;  // none: not known yet, and not compared
-};
 
 class Store {
  public:
@@ -56,9 +47,10 @@ class Store {
   const std::vector<Record>& records() const { return records_; }
   // A case with overridden parameters has a name of its own (Record::case_name).
   const Record* find(std::string_view experiment, std::string_view case_name, std::string_view profile) const;
-  // The record with this key, if it is unaltered, its pictures are still those that it drew, and its run is
-  // comparable with `now`.
-  const Record* find(const CaseKey&, const Provenance& now) const;
+  // For --resume: the record of this case with the same seed and parameters, and of the same terrain if
+  // `planned` knows its checksum; if it is unaltered, its pictures are still those that it drew, and its run
+  // is comparable with `now`. Otherwise null.
+  const Record* find(const Record& planned, const Provenance& now) const;
   // The newest record of the profile that drew this figure, ignoring records with overridden parameters. Both
   // null when there is none.
   std::pair<const Record*, const RecordedFigure*> find_figure(std::string_view id,

@@ -131,12 +131,6 @@ TEST(DrillFactorial, ReadsEquationThreeInTwelveWays) {
   }
 }
 
-TEST(DrillFactorial, AllReadingsAndVariantsAreCases) {
-  const std::vector<Case> cases = experiment("drill.readings").cases({});
-  EXPECT_EQ(cases.size(), 72U);
-  EXPECT_EQ(kReadings[cases[17].parameters.choice("reading")].name, cases[17].parameters.text("reading"));
-}
-
 // A sweep with the RMSE that `error` gives.
 template <class Error>
 Sweep swept(const Error& error) {
@@ -235,16 +229,6 @@ TEST(DrillGround, LargerHillsContinueSmallerOnes) {
     for (int i = 0; i < 96; ++i) ASSERT_EQ(small.at(i, j), large.at(i, j)) << i << " " << j;
   }
   EXPECT_EQ(open_ground("noise-hills", 7).heights->heights, whole_metres(noise_hills(400, 7)).heights);
-}
-
-TEST(DrillGrowth, DoublesTheSideUpToTheProfilesLargest) {
-  const Experiment& growth = experiment("drill.growth");
-  RunOptions options;
-  EXPECT_EQ(growth.cases(options).back().name, "n=1024");
-  options.profile = Profile::kPaper;
-  const std::vector<Case> cases = growth.cases(options);
-  EXPECT_EQ(cases.size(), 6U);
-  EXPECT_EQ(cases.back().parameters.integer("n"), 8192);
 }
 
 // Relative luminance (WCAG 2) with all cones, and without the red or the green ones (Viénot, Brettel & Mollon

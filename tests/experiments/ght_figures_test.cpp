@@ -1,4 +1,4 @@
-// The figures of "ght": that they show what they say, read back from the pictures themselves.
+// What the figures of "ght" are made of and measured by. Claims judge the figures themselves.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,6 @@
 #include "representations/ght/invariants.h"
 #include "terrain/error.h"
 #include "terrain/events/scripts.h"
-#include "terrain/files.h"
-#include "terrain/sources/fractal/diamond_square.h"
-#include "terrain/sources/fractal/faults.h"
 #include "tests/experiments/sheet_reader.h"
 
 namespace terrabench::ght {
@@ -26,24 +23,8 @@ namespace {
 using figures::cut_away;
 using figures::CutPlane;
 using figures::section_face;
-using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::EndsWith;
-using ::testing::HasSubstr;
-
-std::vector<figures::Figure> all_figures() {
-  std::vector<figures::Figure> all(stage_figures().begin(), stage_figures().end());
-  all.insert(all.end(), event_figures().begin(), event_figures().end());
-  return all;
-}
-
-SheetReader read(int number) {
-  const std::vector<figures::Figure> all = all_figures();
-  const auto at = std::find_if(all.begin(), all.end(), [&](const auto& f) { return f.number == number; });
-  const RunOptions options;
-  figures::Drawing drawing(options);
-  return SheetReader(at->draw(drawing));
-}
 
 std::vector<std::string> words(const SheetReader& shown) {
   std::vector<std::string> all;
@@ -51,90 +32,11 @@ std::vector<std::string> words(const SheetReader& shown) {
   return all;
 }
 
-class GhtFigure : public testing::TestWithParam<std::size_t> {};
-INSTANTIATE_TEST_SUITE_P(Ght, GhtFigure, testing::Range(std::size_t{0}, all_figures().size()));
-
-TEST_P(GhtFigure, HasItsPanelsEachDrawnAndNamed) {
-  // Pictures in each row; figure 23 has one per node, flat drawings have none.
-  static const std::map<int, std::vector<int>> kRows{
-      {1, {2}},     {7, {3, 3}},     {9, {3, 3}},     {10, {2}},    {13, {3, 3, 3, 3, 3}},
-      {15, {3, 3}}, {17, {3, 3}},    {18, {3, 3, 2}}, {19, {2, 2}}, {20, {2, 2}},
-      {21, {2}},    {22, {2, 2, 1}}, {24, {3, 3}}};
-  const figures::Figure figure = all_figures()[GetParam()];
-  EXPECT_EQ(figure.name, fmt::format("F{}", figure.number));
-  const SheetReader shown = read(figure.number);
-  const auto inked = [](const Rgb& c) { return c != Rgb{255, 255, 255}; };
-  const SheetReader::Picture whole{0, 0, shown.image.width / 2.0, shown.image.height / 2.0};
-  EXPECT_GT(shown.share(whole, inked), 0.02);
-  if (const int panels = declared_panels(fmt::format("ght.F{}", figure.number)); panels > 0) {
-    EXPECT_EQ(shown.fault_of_panels(panels), "");
-    EXPECT_NE(shown.fault_of_panels(panels + 1), "");
-  } else {
-    EXPECT_EQ(figure.number, 23) << "a panel per node: some look the same";
-  }
-  const auto rows = kRows.find(figure.number);
-  if (rows == kRows.end()) return;
-  EXPECT_EQ(shown.rows(), rows->second);
-  ASSERT_EQ(shown.words.size(), shown.pictures.size());
-  for (std::size_t k = 0; k < shown.pictures.size(); ++k) {
-    const SheetReader::Picture& picture = shown.pictures[k];
-    const SheetReader::Words& under = shown.words[k];
-    EXPECT_FALSE(under.text.empty());
-    EXPECT_DOUBLE_EQ(under.x, picture.x + picture.width / 2);
-    EXPECT_GT(under.y, picture.y + picture.height);
-    EXPECT_LT(under.y, picture.y + picture.height + 28);
-    EXPECT_GT(shown.share(picture, inked), 0.005) << under.text;
-    double left = picture.x, right = 0;  // of its row, which stands in the middle
-    for (const SheetReader::Picture& other : shown.pictures) {
-      if (other.y != picture.y) continue;
-      EXPECT_EQ(other.height, picture.height);
-      left = std::min(left, other.x);
-      right = std::max(right, other.x + other.width);
-    }
-    EXPECT_DOUBLE_EQ(left + right, shown.image.width / 2.0);
-  }
-}
-
-// Figures 1 and 9: the grey of every sample gives back its height.
-void expect_heights(const SheetReader& shown, const SheetReader::Picture& picture, const Heightfield& field) {
-  const HeightRange range = height_range(field);
-  const double span = static_cast<double>(range.highest) - range.lowest;
-  double worst = 0;
-  for (int j = 0; j < field.depth; ++j) {
-    for (int i = 0; i < field.width; ++i) {
-      const Rgb grey = shown.pixel(picture, (i + 0.5) / field.width, (j + 0.5) / field.depth);
-      worst = std::max(worst, std::abs(range.lowest + grey[1] / 255.0 * span - field.at(i, j)));
-    }
-  }
-  EXPECT_LE(worst, 4.0 / 255 * span);  // the file's palette may move a grey by some levels
-}
-
-TEST(GhtFigures, HeightmapsHoldTheHeights) {
-  const SheetReader one = read(1);
-  expect_heights(
-      one, one.pictures.at(0),
-      fractal::diamond_square({.seed = 1, .side = 129, .cell = 30, .amplitude = 800, .hurst = 0.9F}));
-  const SheetReader nine = read(9);
-  int faults = 1;
-  for (const SheetReader::Picture& picture : nine.pictures) {
-    expect_heights(nine, picture,
-                   fractal::fault_terrain({.seed = 1, .width = 257, .depth = 257, .faults = faults}));
-    faults *= 4;
-  }
-  EXPECT_EQ(words(nine).back(), "1,024 iterations");
-}
-
-TEST(GhtFigures, WordsSayWhatTheTreeHolds) {
-  const Tree tree = sequence_tree(1).model().tree;
-  EXPECT_THAT(words(read(22)), AllOf(Contains(fmt::format("after {} events, solid", tree.events().size())),
-                                     Contains(fmt::format("the {} ground planes", tree.nodes().size()))));
-  const Heightfield field = fractal::diamond_square({.seed = 1, .side = 5});
-  EXPECT_THAT(words(read(6)), Contains(HasSubstr(fmt::format("{:.1f} m", std::abs(field.at(0, 1))))));
-}
-
 TEST(GhtFigures, TreeShowsEachCellOfEachNode) {
   const Tree tree = sequence_tree(1).model().tree;
-  const SheetReader shown = read(23);
+  const RunOptions options;
+  figures::Drawing drawing(options);
+  const SheetReader shown(draw_tree(drawing));
   ASSERT_EQ(shown.pictures.size(), tree.nodes().size());
   const std::map<CellKind, Rgb> colours{{CellKind::kHeight, {200, 200, 200}},
                                         {CellKind::kLink, {213, 94, 0}},
@@ -171,62 +73,6 @@ TEST(GhtFigures, TreeShowsEachCellOfEachNode) {
     std::replace(name.begin(), name.end(), '-', ' ');
     EXPECT_THAT(words(shown), Contains(EndsWith(". " + name)));
   }
-}
-
-// Wires of the root are grey, those of other nodes blue.
-TEST(GhtFigures, WiresShowWhatEventsMade) {
-  const auto blue = [](const Rgb& c) { return c[2] > c[0] + 60; };
-  const SheetReader sequence = read(22), rain = read(24);
-  EXPECT_EQ(sequence.share(sequence.pictures.at(0), blue), 0);
-  EXPECT_GT(sequence.share(sequence.pictures.at(2), blue), 0.01);
-  EXPECT_EQ(rain.share(rain.pictures.at(1), blue), 0);
-  EXPECT_GT(rain.share(rain.pictures.at(4), blue), 0.02);
-  EXPECT_EQ(rain.words.at(3).text, "after 2,500 particles: ground planes");
-  const auto yellow = [](const Rgb& c) { return c[0] > 225 && c[1] > 185 && c[2] < 40; };
-  EXPECT_GT(rain.share(rain.pictures.at(2), yellow), 0.002);
-  EXPECT_EQ(rain.share(rain.pictures.at(5), yellow), 0);
-}
-
-Record drawn(std::string_view which, std::string_view name, const TemporaryFolder& folder) {
-  std::filesystem::create_directories(folder / "figures");
-  Record record;
-  record.profile = "quick";
-  record.case_name = name;
-  Recorder recorder(record, folder.path());
-  Progress progress;
-  const std::vector<Case> cases = experiment(which).cases({});
-  experiment(which).measure(*std::ranges::find(cases, name, &Case::name), {}, recorder, progress);
-  EXPECT_EQ(record.figures.size(), 1U);
-  EXPECT_EQ(record.figures.at(0).id, fmt::format("ght.{}", name));
-  return record;
-}
-
-TEST(GhtFigures, RecordTheNumbersThatTheyPrint) {
-  const TemporaryFolder folder;
-  const auto expect_said = [](const Record& record, const char* metric) {
-    const double value = record.find(metric)->samples.at(0);
-    EXPECT_TRUE(says(record.figures.at(0).layout, value)) << metric << " " << value;
-    EXPECT_FALSE(says(record.figures[0].layout, value + 5000)) << metric;
-  };
-  const Record six = drawn("ght.stages", "F6", folder), tree = drawn("ght.event-figures", "F23", folder);
-  expect_said(six, "height_west");
-  expect_said(six, "height_east");
-  expect_said(tree, "events");
-  expect_said(tree, "heightmaps");
-}
-
-TEST(GhtFigures, AreTheSameEveryTime) {
-  const TemporaryFolder one, two;
-  const Record record = drawn("ght.event-figures", "F15", one),
-               again = drawn("ght.event-figures", "F15", two);
-  EXPECT_EQ(record.figures[0].caption.find("Figure 15 of the paper: a tunnel"), 0U);
-  EXPECT_EQ(read_file(one / record.figures[0].file), read_file(two / again.figures[0].file));
-}
-
-TEST(GhtFigures, OfListingsOfCodeAreRefused) {
-  Case at = experiment("ght.event-figures").cases({})[0];
-  EXPECT_EQ(at.parameters.text("figure"), at.name);
-  EXPECT_THROW(at.parameters.set("figure", std::string("F16")), Error);
 }
 
 TEST(Scripts, MakeSoundTrees) {

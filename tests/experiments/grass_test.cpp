@@ -35,20 +35,6 @@ TEST(GrassExperiments, Table3TimesTheThreeNumbersWithEveryTechnique) {
   }
 }
 
-TEST(GrassExperiments, TheProfilesTimeThePapersNumbers) {
-  RunOptions options;
-  for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
-    options.profile = profile;
-    const std::vector<Case> cases = experiment("hybrid.table3").cases(options);
-    ASSERT_EQ(cases.size(), 3U);
-    for (const Case& at : cases) {
-      EXPECT_EQ(at.integer("billboards"), 83'920);
-      EXPECT_EQ(at.integer("width"), 800);
-      EXPECT_EQ(at.integer("height"), 600);
-    }
-  }
-}
-
 TEST(GrassExperiments, SlopeCountsTheTrianglesOfEachReading) {
   const TriangleMesh mesh = grassland_mesh(grassland(RunOptions{}.seed, 128, 0.9F));
   const auto triangles = [&](double limit, bool printed) {

@@ -35,8 +35,7 @@ class SheetReader {
     std::string text;
   };
 
-  // Without its file, pixels cannot be asked for; writing it takes most of the time.
-  explicit SheetReader(const figures::Sheet& sheet, bool with_file = true) {
+  explicit SheetReader(const figures::Sheet& sheet) {
     std::istringstream svg(sheet.svg());
     for (std::string line; std::getline(svg, line);) {  // one element per line
       const auto number = [&](const char* name) {
@@ -49,7 +48,6 @@ class SheetReader {
         words.push_back({number(" x=\""), number(" y=\""), line.substr(begin, line.rfind('<') - begin)});
       }
     }
-    if (!with_file) return;
     const TemporaryFolder folder;
     sheet.write({folder / "sheet.png", [&](const FigureLayout& of) { layout = of; }});
     image = read_picture(folder / "sheet.png");
@@ -75,19 +73,6 @@ class SheetReader {
     return image.pixel(static_cast<int>(kPixels * (picture.x + across * picture.width)),
                        static_cast<int>(kPixels * (picture.y + down * picture.height)));
   }
-  // The share of the picture's pixels for which test(pixel).
-  template <class Test>
-  double share(const Picture& picture, const Test& test) const {
-    constexpr int kAcross = 400;
-    int count = 0;
-    for (int j = 0; j < kAcross; ++j) {
-      for (int i = 0; i < kAcross; ++i) {
-        count += test(pixel(picture, (i + 0.5) / kAcross, (j + 0.5) / kAcross));
-      }
-    }
-    return static_cast<double>(count) / (kAcross * kAcross);
-  }
-
   std::vector<Picture> pictures;
   std::vector<Words> words;
   Image image;

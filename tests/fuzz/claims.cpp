@@ -44,7 +44,7 @@ id = "p.2"
 where = ""
 statement = ""
 class = "Q"
-pending = "later"
+not_comparable = "later"
 [[table]]
 id = "p.t"
 title = "t"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "results/store/record_json.h"
 #include "tests/results/fake_results.h"
 
 namespace terrabench {
@@ -121,20 +122,29 @@ TEST_F(LayoutTest, StackedBarsStandInGroupsAndNeedAllTheirParts) {
   EXPECT_ANY_THROW(with_parts(R"({label = "choosing", metric = "m", cases = ["c"]})"));
 }
 
-TEST_F(LayoutTest, GrowthStartsAnewInEachBlock) {
+TEST_F(LayoutTest, GrowthStartsAnewInEachBlockAndOnEachMachine) {
   for (int i = 1; i <= 4; ++i) {
     Record record = fake_record(run_, "e", "c" + std::to_string(i));
     add(record, "time", "s", {i == 3 ? 0.5 : 10.0 * i});
     store_.append(record);
   }
+  Provenance other = run_;
+  other.cpu = "another";
+  other.id = digest(other);
+  store_.begin_run(other);
+  Record elsewhere = fake_record(other, "e", "c5");
+  add(elsewhere, "time", "s", {50});
+  store_.append(elsewhere);
   const Table table = table_of(R"({label = "a", case = "c1"}, {label = "b", case = "c2"},
-                                  {label = "c", case = "c3", new_block = true}, {label = "d", case = "c4"})",
+                                  {label = "c", case = "c3", new_block = true}, {label = "d", case = "c4"},
+                                  {label = "e", case = "c5"})",
                                R"({title = "growth", unit = "×", growth = "time"})");
-  ASSERT_EQ(table.rows.size(), 4U);
+  ASSERT_EQ(table.rows.size(), 5U);
   EXPECT_EQ(table.rows[0][1].text, "–");
   EXPECT_EQ(table.rows[1][1].text, "2");
   EXPECT_EQ(table.rows[2][1].text, "–");
   EXPECT_EQ(table.rows[3][1].text, "80");
+  EXPECT_EQ(table.rows[4][1].text, "–");
 }
 
 TEST(LayoutFile, CasesWithAMeasuredXAreNamesAlone) {

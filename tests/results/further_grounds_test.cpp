@@ -214,17 +214,6 @@ TEST_F(FurtherGroundsTest, WhatIsUndecidedIsNotTheSame) {
   EXPECT_EQ(tables()[0].table.rows[0][2].text, "on a hill drills (2 ×); on a cave voxels (1.33 ×)");
 }
 
-TEST_F(FurtherGroundsTest, DemsOfOneNameHaveTheirOwnTables) {
-  for (const char* const folder : {"/x/", "/y/"}) {
-    for (const char* const type : {"a", "b"})
-      measure(std::string(folder) + "alps.tif", std::string(type) + "/5%", 1, 1, false);
-  }
-  ASSERT_THAT(tables(), SizeIs(2));
-  EXPECT_NE(tables()[0].table.id, tables()[1].table.id);
-  EXPECT_EQ(tables()[0].table.title, "Which method for x/alps.tif");
-  EXPECT_EQ(tables()[1].table.title, "Which method for y/alps.tif");
-}
-
 // The end of a case's name does not tell where the ground's ends.
 TEST_F(FurtherGroundsTest, AreKnownByTheTerrainOfTheRecord) {
   measure("/x/a/5%", "a/5%", 1, 1, false);

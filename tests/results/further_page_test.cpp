@@ -135,18 +135,6 @@ TEST_F(FurtherPageTest, EscapesTheNamesOfFiles) {
   EXPECT_THAT(written("index.html"), Not(HasSubstr("<i>")));
 }
 
-TEST_F(FurtherPageTest, IsItsOwnForEachOfTwoFilesOfOneName) {
-  measure("/x/alps.tif");
-  measure("/y/alps.tif");
-  measure("/x/caves");  // as the file name of a ground with a page of its own
-  write();
-  EXPECT_EQ(pages().size(), 6U);
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Ground x/alps.tif"));
-  EXPECT_THAT(page("/y/alps.tif"), HasSubstr("Ground y/alps.tif"));
-  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr(ground_id("/y/alps.tif"))));
-  EXPECT_THAT(page("/x/caves"), HasSubstr("Ground caves"));
-}
-
 TEST_F(FurtherPageTest, IsNotWrittenIfNothingOnItWasMeasured) {
   Record record = fake_record(run_, "cross.representations", "/x/alps.tif/heightmap (rays=7)");
   record.terrain = "/x/alps.tif";
@@ -157,41 +145,6 @@ TEST_F(FurtherPageTest, IsNotWrittenIfNothingOnItWasMeasured) {
   write();
   EXPECT_EQ(pages(), (std::set<std::string>{"ground-jacksboro.html", "ground-jacksboro.md"}));
   EXPECT_THAT(written("index.html"), Not(HasSubstr("Further grounds")));
-}
-
-TEST_F(FurtherPageTest, WarnsOfGroundThatChanged) {
-  measure("/x/alps.tif");
-  write();
-  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("The content of this ground changed")));
-  Record again = fake_record(run_, "cross.representations", "/x/alps.tif/voxel");
-  again.terrain = "/x/alps.tif";
-  again.terrain_checksum = "another";
-  add(again, "rmse", "m", {3});
-  store_.append(again);
-  write();
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("The content of this ground changed"));
-}
-
-// Errors leave these columns out, so that a method that loses many of them looks better than it is.
-TEST_F(FurtherPageTest, WarnsOfManyLostColumns) {
-  const auto lose = [&](const std::string& rest, double lost) {
-    Record record = fake_record(run_, "cross.representations", "/x/alps.tif/" + rest);
-    record.terrain = "/x/alps.tif";
-    add(record, "columns", "", {1000 - lost});
-    add(record, "lost_columns", "", {lost});
-    add(record, "rmse", "m", {3});
-    store_.append(record);
-  };
-  measure("/x/alps.tif");
-  lose("voxel/20%", 5);
-  write();
-  EXPECT_THAT(page("/x/alps.tif"), Not(HasSubstr("leave out columns")));
-  lose("voxel/5%", 250);
-  lose("voxel/1%", 20);
-  write();
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
-  EXPECT_THAT(page("/x/alps.tif"), HasSubstr("Errors of volume leave out none."));
-  EXPECT_THAT(written("index.html"), HasSubstr("up to 25.0 % of the columns (case alps.tif/voxel/5%)"));
 }
 
 TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "results/claims/check_output.h"
 #include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
@@ -61,19 +60,6 @@ TEST_F(OneClaim, OrderIsStrict) {
   EXPECT_EQ(verdict("{order = [1, \"e/c/m\", \"e/c/n\", 4]}"), Verdict::kReproduced);
   EXPECT_EQ(verdict("{order = [2, \"e/c/m\"]}"), Verdict::kDiffers);
   EXPECT_EQ(verdict("{order = [\"e/c/n\", \"e/c/m\"]}"), Verdict::kDiffers);
-}
-
-TEST_F(OneClaim, WithoutItsMethodIsPendingAndFailsNoCheck) {
-  write_fake_results(folder_, "quick");
-  papers_ = {
-      paper_of("[[claim]]\nid = \"p.1\"\nwhere = \"w\"\nstatement = \"s\"\nclass = \"E\"\n"
-               "pending = \"the method is not built\"\n")};
-  const JudgedResults results = judge(Store::open(folder_), papers_);
-  EXPECT_EQ(results.judgements.at(0).verdict, Verdict::kPending);
-  EXPECT_EQ(results.judgements[0].measured, "the method is not built");
-  EXPECT_EQ(results.judgements[0].complaint, "");
-  EXPECT_FALSE(results.passed()) << "no claim was judged";
-  EXPECT_THAT(check_text(results, {}), HasSubstr("\npending\n  p.1\n"));
 }
 
 TEST_F(OneClaim, ShapeClaimsSayShape) {
@@ -199,31 +185,32 @@ TEST_F(OneClaim, RatiosAcrossMachinesOrBuildsAreRefused) {
   metrics_ = {{"t", "s", {1}}, {"bytes", "B", {8}}, {"share", "", {1}, true}};
   const std::string growth = "{growth = [\"e/c/t\", \"e/d/t\"], range = [6.5, 9.5]}";
   Provenance other = fake_provenance();
-  const auto complaint = [&](const std::string& check) {
+  const auto check_failure = [&](const std::string& check) {
     other.id = digest(other);
     other_runs_ = {{other, {{"t", "s", {8}}, {"bytes", "B", {8}}, {"share", "", {2}, true}}}};
-    return judge_one(check, "S").complaint;
+    return judge_one(check, "S").check_failure;
   };
   other.time = "another day";
-  EXPECT_EQ(complaint(growth), "");
+  EXPECT_EQ(check_failure(growth), "");
   other.threads = 1;
-  EXPECT_THAT(complaint(growth), HasSubstr("measured on different machines or builds"));
-  EXPECT_THAT(complaint("{ratio = [\"e/d/t\", \"e/c/t\"], range = [6.5, 9.5]}"),
+  EXPECT_THAT(check_failure(growth), HasSubstr("measured on different machines or builds"));
+  EXPECT_THAT(check_failure("{ratio = [\"e/d/t\", \"e/c/t\"], range = [6.5, 9.5]}"),
               HasSubstr("different machines or builds"));
-  EXPECT_THAT(complaint("{order = [\"e/c/t\", \"e/d/t\"]}"), HasSubstr("different machines or builds"));
+  EXPECT_THAT(check_failure("{order = [\"e/c/t\", \"e/d/t\"]}"), HasSubstr("different machines or builds"));
   const std::string bytes = "{ratio = [\"e/c/bytes\", \"e/d/bytes\"], range = [1, 1]}";
-  EXPECT_EQ(complaint("{equal = [\"e/c/bytes\", \"e/d/bytes\"]}"), "") << "bytes are the same everywhere";
-  EXPECT_EQ(complaint(bytes), "");
+  EXPECT_EQ(check_failure("{equal = [\"e/c/bytes\", \"e/d/bytes\"]}"), "") << "bytes are the same everywhere";
+  EXPECT_EQ(check_failure(bytes), "");
   const std::string shares = "{order = [\"e/c/share\", \"e/d/share\"]}";
-  EXPECT_THAT(complaint(shares), HasSubstr("different machines or builds")) << "computed from times";
+  EXPECT_THAT(check_failure(shares), HasSubstr("different machines or builds")) << "computed from times";
   other.git_revision = "fedcba";
-  EXPECT_THAT(complaint(bytes), HasSubstr("different machines or builds")) << "but not of another revision";
+  EXPECT_THAT(check_failure(bytes), HasSubstr("different machines or builds"))
+      << "but not of another revision";
   for (auto change : {+[](Provenance& p) { p.cpu = "another"; }, +[](Provenance& p) { p.flags = "-O0"; },
                       +[](Provenance& p) { p.simd = "none"; }, +[](Provenance& p) { p.compiler = "Clang"; },
                       +[](Provenance& p) { p.git_revision = "fedcba"; }}) {
     other = fake_provenance();
     change(other);
-    EXPECT_NE(complaint(growth), "");
+    EXPECT_NE(check_failure(growth), "");
   }
 }
 
@@ -236,15 +223,15 @@ TEST_F(OneClaim, DivisionByZeroLiesInNoRange) {
 TEST_F(OneClaim, MissingMeasurementFails) {
   const Judgement found = judge_one("{equal = [\"e/other/m\", 1]}");
   EXPECT_EQ(found.verdict, Verdict::kMissing);
-  EXPECT_THAT(found.complaint, HasSubstr("missing"));
+  EXPECT_THAT(found.check_failure, HasSubstr("missing"));
   EXPECT_THAT(found.measured, HasSubstr("no m of e other was measured"));
 }
 
 TEST_F(OneClaim, KnownDifferenceDoesNotFailAndAnEndToItDoes) {
   metrics_ = {{"m", "", {2}}};
   const std::string known = "fails = [\"e/c/m = *\"]\nnote = \"n\"\nmatches = \"None does.\"\n";
-  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 3]}", "E", known).complaint, "");
-  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).complaint,
+  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 3]}", "E", known).check_failure, "");
+  EXPECT_EQ(judge_one("{equal = [\"e/c/m\", 2]}", "E", known).check_failure,
             "holds and was known to fail: m 2 = 2");
 }
 
@@ -253,42 +240,42 @@ TEST_F(OneClaim, AKnownDifferenceExcusesNoOtherCondition) {
   const std::string known =
       "fails = [\"e/c/m = 3\", \"e/c/n in *\"]\nnote = \"n\"\nmatches = \"None does.\"\n";
   const std::string failing = "{equal = [\"e/c/m\", 3]}, {within = [\"e/c/n\"], range = [6, 7]}";
-  EXPECT_EQ(judge_one(failing + ", {order = [1, \"e/c/m\"]}", "E", known).complaint, "");
+  EXPECT_EQ(judge_one(failing + ", {order = [1, \"e/c/m\"]}", "E", known).check_failure, "");
   const Judgement broken = judge_one(failing + ", {order = [2, \"e/c/m\"]}", "E", known);
   EXPECT_EQ(broken.verdict, Verdict::kDiffers);
-  EXPECT_THAT(broken.complaint, HasSubstr("fails and must hold: 2 ≥ m 2"));
+  EXPECT_THAT(broken.check_failure, HasSubstr("fails and must hold: 2 ≥ m 2"));
   // One of two known failures has ended: the verdict is the same, the claim is not.
   const Judgement ended =
       judge_one("{equal = [\"e/c/m\", 3]}, {within = [\"e/c/n\"], range = [4, 7]}", "E", known);
   EXPECT_EQ(ended.verdict, Verdict::kDiffers);
-  EXPECT_THAT(ended.complaint, HasSubstr("holds and was known to fail: n 5, in [4, 7]"));
-  EXPECT_NE(judge_one(failing + ", {order = [1, \"e/c/other\"]}", "E", known).complaint, "") << "missing";
+  EXPECT_THAT(ended.check_failure, HasSubstr("holds and was known to fail: n 5, in [4, 7]"));
+  EXPECT_NE(judge_one(failing + ", {order = [1, \"e/c/other\"]}", "E", known).check_failure, "") << "missing";
 }
 
-// Such a condition may hold or fail without a complaint, but it must have been measured.
+// Such a condition may hold or fail without failing the check, but it must have been measured.
 TEST_F(OneClaim, ConditionsThatDependOnTheMachineMayFailAndNoOthers) {
   metrics_ = {{"m", "", {2}}};
   const std::string machine =
       "may_fail = [\"e/c/* = *\"]\nmachine = \"Caches differ.\"\nprofiles = [\"quick\", \"\"]\n";
   const Judgement differs = judge_one("{equal = [\"e/c/m\", 3]}", "E", machine);
   EXPECT_EQ(differs.verdict, Verdict::kDiffers);
-  EXPECT_EQ(differs.complaint, "");
-  EXPECT_EQ(differs.claim->known(), Verdict::kReproduced);
+  EXPECT_EQ(differs.check_failure, "");
+  EXPECT_EQ(differs.claim->expected(), Verdict::kReproduced);
   EXPECT_EQ(differs.claim->reason(), "Caches differ.");
   EXPECT_EQ(differs.claim->profiles, std::vector<std::string>{"quick"});
   const Judgement holds = judge_one("{equal = [\"e/c/m\", 2]}", "E", machine);
   EXPECT_EQ(holds.verdict, Verdict::kReproduced);
-  EXPECT_EQ(holds.complaint, "");
+  EXPECT_EQ(holds.check_failure, "");
   const Judgement broken = judge_one("{equal = [\"e/c/m\", 3]}, {order = [3, \"e/c/m\"]}", "E", machine);
-  EXPECT_EQ(broken.complaint, "fails and must hold: 3 ≥ m 2 (50 % above)");
+  EXPECT_EQ(broken.check_failure, "fails and must hold: 3 ≥ m 2 (50 % above)");
   const Judgement both =
       judge_one("{equal = [\"e/c/m\", 3]}, {order = [3, \"e/c/m\"]}", "E",
                 machine + "fails = [\"3 < e/c/m\"]\nnote = \"First. Second.\"\nmatches = \"None does.\"\n");
-  EXPECT_EQ(both.complaint, "");
+  EXPECT_EQ(both.check_failure, "");
   EXPECT_EQ(both.claim->reason(), "First.");
   const Judgement missing = judge_one("{equal = [\"e/c/other\", 2]}", "E", machine);
   EXPECT_EQ(missing.verdict, Verdict::kMissing);
-  EXPECT_NE(missing.complaint, "");
+  EXPECT_NE(missing.check_failure, "");
 }
 
 TEST_F(OneClaim, FigureMustBeThereDecodeAndShowSomething) {

@@ -11,7 +11,6 @@
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
-#include "tests/terrain/small_files.h"
 
 namespace terrabench {
 namespace {
@@ -216,18 +215,6 @@ TEST_F(LatexBundle, SameMeasurementsSameBytesAndAnEarlierOneIsReplaced) {
   write_file(bundle() / "main.pdf", std::string_view("compiled"));
   write_latex_bundle(folder_, folder_ / "bundle/.");
   EXPECT_EQ(files(), first);
-}
-
-TEST_F(LatexBundle, AFullDiskLeavesTheEarlierOne) {
-  write_fake_results(folder_, "quick");
-  write_latex_bundle(folder_, bundle());
-  const auto before = files();
-  const auto entries = [&] { return std::distance(std::filesystem::directory_iterator(folder_), {}); };
-  const auto entries_before = entries();
-  const Failure failure = failure_with_small_files(2000, [&] { write_latex_bundle(folder_, bundle()); });
-  EXPECT_EQ(failure.code, ExitCode::kEnvironment);
-  EXPECT_EQ(files(), before);
-  EXPECT_EQ(entries(), entries_before);
 }
 
 TEST_F(LatexBundle, FiguresHaveTheirPrintSizeAndFonts) {

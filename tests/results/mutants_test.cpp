@@ -28,11 +28,7 @@ class MutantsTest : public FolderTest {
     add(record, "zero", "", {0});
     record.figures.push_back({"f", "figures/f.png", "a caption"});
     store.append(record);
-    const std::vector<Paper> papers = {
-        parse_claims("paper = \"p\"\ntitle = \"t\"\nsource = \"s\"\n[[claim]]\nid = \"p.1\"\nwhere = \"w\"\n"
-                     "statement = \"s\"\nclass = \"F\"\ncheck = [" +
-                         check + "]\n",
-                     "x")};
+    const std::vector<Paper> papers = {paper_with_claim("F", check)};
     const std::vector<Survivor> found = survivors(store, papers);
     return found.empty() ? "" : found[0].reason;
   }

@@ -46,7 +46,7 @@ TEST_F(Statements, HoldAsPrintedOrInAReadingButNotOnAnotherGround) {
   EXPECT_EQ(standing(Verdict::kDiffers, Variation::kReading, Verdict::kDiffers), Standing::kDoesNotHold);
   EXPECT_EQ(standing(Verdict::kDiffers, Variation::kGround, Verdict::kReproduced), Standing::kDoesNotHold);
   EXPECT_EQ(standing(Verdict::kDiffers, Variation::kSetting, Verdict::kReproduced), Standing::kDoesNotHold);
-  for (const Verdict none : {Verdict::kNotComparable, Verdict::kPending, Verdict::kNotRun, Verdict::kMissing})
+  for (const Verdict none : {Verdict::kNotComparable, Verdict::kNotRun, Verdict::kMissing})
     EXPECT_EQ(standing(none, Variation::kReading, Verdict::kReproduced), Standing::kNotJudged);
 }
 

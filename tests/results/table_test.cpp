@@ -78,15 +78,6 @@ TEST(TableTest, MarkdownKeepsRowsOnOneLine) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
 }
 
-TEST(TableTest, LatexIsBooktabsAndEscaped) {
-  const std::string text = latex(awkward());
-  EXPECT_THAT(text, HasSubstr("\\toprule"));
-  EXPECT_THAT(text, HasSubstr("\\begin{longtable}{@{}lr@{}}"));
-  EXPECT_THAT(text, HasSubstr("50 \\% of \\$x\\_1\\$"));
-  EXPECT_THAT(text, HasSubstr("\\# \\{4\\} \\textasciitilde{}\\textasciicircum{}\\textbackslash{}"));
-  EXPECT_EQ(escape_latex("64³ × 2"), "64\\textsuperscript{3} $\\times$ 2");
-}
-
 TEST(DocumentTest, PageNeedsNothingFromOutside) {
   const Document document = {Heading{1, "A <title>", "top"},
                              Heading{2, "Part", "part"},
