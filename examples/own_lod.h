@@ -38,11 +38,7 @@ class RightTriangles final : public Lod {
   Memory memory() const override {
     Memory all = payload_memory(splits_);
     all += {.index = heap_bytes(this)};
-    all += index_memory(indices_);
-    all += index_memory(drawn_);
-    all += index_memory(batches_);
-    all += index_memory(uploads_);
-    return all += index_memory(edits_);
+    return all += index_memory(indices_, drawn_, batches_, uploads_, edits_);
   }
   const Frame& update(const View& view) override {
     using Target = DirtyRange::Target;

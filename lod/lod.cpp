@@ -4,17 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 
 #include "terrain/error.h"
 
 namespace terrabench {
-namespace {
-
-bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-}  // namespace
 
 double setting(const Knob& knob, double value) {
   if (std::isnan(value)) {
@@ -24,33 +17,6 @@ double setting(const Knob& knob, double value) {
   const auto [low, high] = std::minmax(knob.finest, knob.coarsest);
   const double within = std::clamp(value, low, high);
   return knob.whole ? std::round(within) : within;
-}
-
-void check_view(const View& view) {
-  if (!is_finite(view.eye))
-    throw usage_error("eye must be finite", "eye", "give three finite coordinates in metres");
-  if (!is_finite(view.target) || view.target == view.eye) {
-    throw usage_error("target must be finite and differ from eye", "target", "choose another point");
-  }
-  const glm::dvec3 sight = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.eye));
-  if (!is_finite(view.up) || !(glm::length(glm::cross(sight, glm::normalize(glm::dvec3(view.up)))) > 1e-6)) {
-    throw usage_error("up must be finite and not parallel to the line of sight", "up",
-                      "choose another direction");
-  }
-  if (!(view.vertical_fov > 0 && view.vertical_fov < std::numbers::pi_v<float>)) {
-    throw usage_error(fmt::format("vertical_fov must be in (0, π), got {}", view.vertical_fov),
-                      "vertical_fov", "give it in radians");
-  }
-  if (view.width < 1 || view.height < 1) {
-    throw usage_error(
-        fmt::format("width and height must be at least 1, got {} × {}", view.width, view.height),
-        "width, height", "give them in pixels");
-  }
-  if (!(view.near > 0 && view.far > view.near && std::isfinite(view.far))) {
-    throw usage_error(fmt::format("near and far must satisfy 0 < near < far < infinity, got {} and {}",
-                                  view.near, view.far),
-                      "near, far", "give both in metres");
-  }
 }
 
 void check_ground(const Heightfield& ground) {

@@ -119,8 +119,6 @@ std::vector<Entrant> entrants();
 // The value, clamped to the knob's range and rounded if it must be whole. Throws usage_error for NaN.
 double setting(const Knob&, double value);
 
-// Throws usage_error, naming the member, for a view that cannot be drawn.
-void check_view(const View&);
 // Throws usage_error for a field smaller than 2 × 2 samples or with no-data.
 void check_ground(const Heightfield&);
 // The grid of a field's samples.

@@ -3,10 +3,36 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "renderers/context.h"
 
 namespace terrabench {
+
+// A library that is opened at run time, so that the program starts without it and names the package to
+// install. Stays open until the process ends: Mesa keeps threads and exit handlers in its libraries. Its
+// symbols are visible to this object only, because libOSMesa and libGL export the same gl* names.
+class SharedLibrary {
+ public:
+  // `path` and `advice` must outlive the object. Throws environment_error with `missing` as what went wrong.
+  SharedLibrary(const char* path, std::string_view missing, const char* advice);
+
+  // Of any function's type.
+  struct Symbol {
+    void* address;
+    template <class Function>
+    operator Function*() const {  // NOLINT(google-explicit-constructor): initialises pointers to functions
+      return reinterpret_cast<Function*>(address);
+    }
+  };
+  // The symbol of that name; throws environment_error if the library has none.
+  Symbol operator[](const char* name) const;
+
+ private:
+  const char* path_;
+  const char* advice_;
+  void* handle_;
+};
 
 // The context with a picture to draw into, which each of the functions below makes last; it is current then.
 std::unique_ptr<GlContext> with_target(std::unique_ptr<GlContext>, int width, int height);

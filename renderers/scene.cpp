@@ -233,10 +233,6 @@ Image render_relief(GlContext& context, const TriangleMesh& mesh, const View& vi
   SceneMesh& drawn = scene.meshes.emplace_back();
   drawn.mesh = &mesh;
   drawn.shading_exaggeration = style.shading_exaggeration;
-  if (style.wireframe) {
-    drawn.wire_width = 1;
-    drawn.wire_opacity = 0.55F;
-  }
   return render_scene(context, scene, view);
 }
 

@@ -79,7 +79,6 @@ struct ReliefStyle {
   float lowest = 0, highest = 1;      // metres at the two ends of the colour ramp
   glm::vec3 sun{-0.5F, 0.7F, -0.5F};  // towards the light; by cartographers' convention from the north-west
   Rgb background{255, 255, 255};
-  bool wireframe = false;          // draws the triangles' edges over the relief
   float shading_exaggeration = 0;  // as in SceneMesh
 };
 

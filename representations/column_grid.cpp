@@ -161,6 +161,12 @@ std::span<const ParameterSpec> column_parameters() {
   return kSpecs;
 }
 
+std::vector<ParameterSpec> column_parameters_and(std::initializer_list<ParameterSpec> own) {
+  std::vector<ParameterSpec> specs(column_parameters().begin(), column_parameters().end());
+  specs.insert(specs.end(), own);
+  return specs;
+}
+
 void check_heights(const Heightfield& field, std::string_view where) {
   const auto wrong = [&](std::string_view what) {
     return bad_input(what, where, "check the file in a GIS, or make it again from its source");

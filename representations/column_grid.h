@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <vector>
@@ -104,6 +105,7 @@ class ColumnSampler {
 
 // `resolution` and `step`, common to all methods on this lattice.
 std::span<const ParameterSpec> column_parameters();
+std::vector<ParameterSpec> column_parameters_and(std::initializer_list<ParameterSpec> own);
 
 // Columns along the longest side of a solid when `resolution` is 0.
 inline constexpr int kDefaultResolution = 128;

@@ -22,7 +22,7 @@
 
 #include "representations/representation.h"
 #include "terrain/memory.h"
-#include "terrain/ray.h"
+#include "terrain/solid.h"
 
 namespace terrabench {
 

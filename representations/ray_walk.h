@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "terrain/memory.h"
-#include "terrain/ray.h"
+#include "terrain/solid.h"
 
 namespace terrabench {
 

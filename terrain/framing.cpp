@@ -24,10 +24,7 @@ DepthRange depth_range(const View& view, const Bounds& bounds) {
   const glm::vec3 forward = glm::normalize(view.target - view.eye);
   DepthRange range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                      (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                      (corner & 4) != 0 ? bounds.high.z : bounds.low.z);
-    const float depth = glm::dot(p - view.eye, forward);
+    const float depth = glm::dot(bounds.corner(corner) - view.eye, forward);
     range = {std::min(range.nearest, depth), std::max(range.farthest, depth)};
   }
   return range;

@@ -24,17 +24,19 @@ struct Memory {
 // counted.
 std::size_t heap_bytes(const void* block);
 
-// A vector's heap block as payload and slack, or as index and slack.
-template <class T>
-Memory payload_memory(const std::vector<T>& v) {
+// The heap blocks of vectors as payload and slack, or as index and slack.
+template <class T, class... Rest>
+Memory payload_memory(const std::vector<T>& v, const Rest&... rest) {
   static_assert(std::is_trivially_copyable_v<T>,
                 "elements with heap blocks of their own must be counted too");
   const std::size_t used = v.size() * sizeof(T);
-  return {used, 0, heap_bytes(v.data()) - used};
+  Memory memory{used, 0, heap_bytes(v.data()) - used};
+  if constexpr (sizeof...(rest) > 0) memory += payload_memory(rest...);
+  return memory;
 }
-template <class T>
-Memory index_memory(const std::vector<T>& v) {
-  const Memory m = payload_memory(v);
+template <class... Vectors>
+Memory index_memory(const Vectors&... vectors) {
+  const Memory m = payload_memory(vectors...);
   return {0, m.payload, m.slack};
 }
 

@@ -7,15 +7,17 @@
 
 namespace terrabench {
 
-Bounds bounds_of(const TriangleMesh& mesh) {
-  if (mesh.positions.empty()) return {};
-  Bounds box{mesh.positions[0], mesh.positions[0]};
-  for (const glm::vec3& position : mesh.positions) {
-    box.low = glm::min(box.low, position);
-    box.high = glm::max(box.high, position);
+Bounds box_of(std::span<const glm::vec3> positions) {
+  if (positions.empty()) return {};
+  Bounds box{positions[0], positions[0]};
+  for (const glm::vec3& p : positions) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
   }
   return box;
 }
+
+Bounds bounds_of(const TriangleMesh& mesh) { return box_of(mesh.positions); }
 
 void compute_normals(TriangleMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), glm::vec3(0));

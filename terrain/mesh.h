@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "terrain/solid.h"
@@ -18,7 +19,8 @@ struct TriangleMesh {
   std::size_t triangles() const { return indices.size() / 3; }
 };
 
-// The box around all positions; zero for an empty mesh. O(vertices).
+// The box around all positions; zero for none. O(positions).
+Bounds box_of(std::span<const glm::vec3> positions);
 Bounds bounds_of(const TriangleMesh&);
 
 // Area-weighted vertex normals. O(triangles).

@@ -1,5 +1,7 @@
 #include "terrain/view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -7,6 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <numbers>
+
+#include "terrain/error.h"
 
 namespace terrabench {
 
@@ -34,10 +39,7 @@ View overview(const Bounds& bounds, int width, int height, glm::vec3 from) {
   for (int step = 0; step < kSteps; ++step) {
     glm::vec2 low(std::numeric_limits<float>::infinity()), high(-low);
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::vec3 offset = glm::vec3((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                                         (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                                         (corner & 4) != 0 ? bounds.high.z : bounds.low.z) -
-                               view.target;
+      const glm::vec3 offset = bounds.corner(corner) - view.target;
       const float depth = distance - glm::dot(offset, from);
       const glm::vec2 at =
           glm::vec2(glm::dot(offset, right) / slope_x, glm::dot(offset, above) / slope_y) / depth;
@@ -53,6 +55,33 @@ View overview(const Bounds& bounds, int width, int height, glm::vec3 from) {
   view.near = std::max(distance - reach, distance * 0.01F);
   view.far = distance + reach;
   return view;
+}
+
+void check_view(const View& view) {
+  if (!is_finite(view.eye))
+    throw usage_error("eye must be finite", "eye", "give three finite coordinates in metres");
+  if (!is_finite(view.target) || view.target == view.eye) {
+    throw usage_error("target must be finite and differ from eye", "target", "choose another point");
+  }
+  const glm::dvec3 sight = glm::normalize(glm::dvec3(view.target) - glm::dvec3(view.eye));
+  if (!is_finite(view.up) || !(glm::length(glm::cross(sight, glm::normalize(glm::dvec3(view.up)))) > 1e-6)) {
+    throw usage_error("up must be finite and not parallel to the line of sight", "up",
+                      "choose another direction");
+  }
+  if (!(view.vertical_fov > 0 && view.vertical_fov < std::numbers::pi_v<float>)) {
+    throw usage_error(fmt::format("vertical_fov must be in (0, π), got {}", view.vertical_fov),
+                      "vertical_fov", "give it in radians");
+  }
+  if (view.width < 1 || view.height < 1) {
+    throw usage_error(
+        fmt::format("width and height must be at least 1, got {} × {}", view.width, view.height),
+        "width, height", "give them in pixels");
+  }
+  if (!(view.near > 0 && view.far > view.near && std::isfinite(view.far))) {
+    throw usage_error(fmt::format("near and far must satisfy 0 < near < far < infinity, got {} and {}",
+                                  view.near, view.far),
+                      "near, far", "give both in metres");
+  }
 }
 
 }  // namespace terrabench

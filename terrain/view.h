@@ -15,6 +15,8 @@ struct View {
   float near = 0.5F, far = 10000.0F;                // metres
 };
 
+// Throws usage_error, naming the member, for a view that cannot be drawn.
+void check_view(const View&);
 glm::mat4 world_to_clip(const View&);  // OpenGL clip space, z in [-1, 1]
 
 // A view of the whole box that fills the picture, from the south-east and above, as papers show relief; or

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lod/memory.h"
 #include "terrain/frustum.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 

@@ -13,9 +13,9 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "lod/memory.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {

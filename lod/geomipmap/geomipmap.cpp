@@ -6,8 +6,8 @@
 #include <bit>
 #include <utility>
 
-#include "lod/memory.h"
 #include "terrain/error.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {

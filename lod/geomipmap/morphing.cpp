@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 

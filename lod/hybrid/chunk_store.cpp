@@ -8,7 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench::hybrid {
 

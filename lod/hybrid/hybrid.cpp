@@ -7,9 +7,9 @@
 #include <glm/common.hpp>
 #include <tuple>
 
-#include "lod/memory.h"
 #include "terrain/error.h"
 #include "terrain/frustum.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 namespace {

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <vector>
 
-#include "lod/meters/drawn_triangles.h"
 #include "lod/meters/projector.h"
+#include "lod/meters/surface_raster.h"
 
 namespace terrabench {
 namespace {

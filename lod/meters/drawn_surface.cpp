@@ -5,7 +5,7 @@
 #include <limits>
 #include <mutex>
 
-#include "lod/meters/drawn_triangles.h"
+#include "lod/meters/surface_raster.h"
 #include "terrain/memory.h"
 
 namespace terrabench {

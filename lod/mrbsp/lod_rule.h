@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lod/memory.h"
 #include "lod/mrbsp/bisection_tree.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 

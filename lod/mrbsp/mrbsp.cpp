@@ -5,11 +5,11 @@
 #include <glm/common.hpp>
 #include <iterator>
 
-#include "lod/memory.h"
 #include "lod/mrbsp/bisection_tree.h"
 #include "lod/mrbsp/nearest_three.h"
 #include "lod/mrbsp/visibility/codec.h"
 #include "terrain/error.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 

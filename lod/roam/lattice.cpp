@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench::roam {
 namespace {

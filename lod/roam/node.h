@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench::roam {
 

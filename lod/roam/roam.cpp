@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lod/memory.h"
+#include "terrain/memory.h"
 
 namespace terrabench {
 

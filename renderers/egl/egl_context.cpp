@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "renderers/gl.h"
-#include "renderers/shared_library.h"
 #include "terrain/machine_error.h"
 
 namespace terrabench {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "renderers/gl.h"
-#include "renderers/shared_library.h"
 #include "renderers/target.h"
 #include "terrain/machine_error.h"
 

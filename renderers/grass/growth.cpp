@@ -12,8 +12,6 @@
 namespace terrabench {
 namespace {
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 void check(const GrassGround& ground, const GrassGrowth& growth) {
   if (growth.strands < 0 || growth.strands > GrassGrowth::kMostStrands) {
     throw usage_error(fmt::format("invalid number of strands {}", growth.strands), "grass",
@@ -76,7 +74,7 @@ GrassPlan plan_grass(const GrassGround& ground, const GrassGrowth& growth) {
   for (std::size_t t = 0; t < ground.indices.size(); t += 3) {
     const glm::uvec3 at(ground.indices[t], ground.indices[t + 1], ground.indices[t + 2]);
     const auto usable = [&](std::uint32_t v) {
-      return finite(ground.positions[v]) && finite(ground.normals[v]);
+      return is_finite(ground.positions[v]) && is_finite(ground.normals[v]);
     };
     if (!usable(at.x) || !usable(at.y) || !usable(at.z)) continue;
     const glm::dvec3 a(ground.positions[at.x]), b(ground.positions[at.y]), c(ground.positions[at.z]);

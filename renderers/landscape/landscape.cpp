@@ -9,7 +9,6 @@
 
 #include "renderers/landscape/landscape_gl.h"
 #include "renderers/target.h"
-#include "terrain/error.h"
 
 namespace terrabench {
 namespace {
@@ -45,19 +44,6 @@ glm::mat4 reversed_depth(const View& view) {
   return clip;
 }
 
-bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-void check(const View& view) {
-  const bool good = finite(view.eye) && finite(view.target) && view.eye != view.target &&
-                    view.vertical_fov > 0 && view.vertical_fov < 3.14F && view.near > 0 &&
-                    view.far > view.near;
-  if (!good) {
-    throw usage_error("invalid view", "landscape",
-                      "the eye and its target must be finite and differ, the field of view lie between 0 and "
-                      "180°, and the far plane beyond the near plane");
-  }
-}
-
 glm::mat4 mirrored_at(float level) {
   return glm::scale(glm::translate(glm::mat4(1), {0, 2 * level, 0}), {1, -1, 1});
 }
@@ -82,10 +68,7 @@ std::array<Cascade, kCascades> shadow_cascades(const View& view, glm::vec3 sun, 
   // Along the sun's direction: from behind everything to before everything.
   float nearest = -1e30F, farthest = 1e30F;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p((corner & 1) != 0 ? ground.high.x : ground.low.x,
-                      (corner & 2) != 0 ? ground.high.y : ground.low.y,
-                      (corner & 4) != 0 ? ground.high.z : ground.low.z);
-    const float depth = (to_sun * glm::vec4(p, 1)).z;
+    const float depth = (to_sun * glm::vec4(ground.corner(corner), 1)).z;
     nearest = std::max(nearest, depth);
     farthest = std::min(farthest, depth);
   }
@@ -310,7 +293,7 @@ void LandscapeRenderer::restyle(const LandscapeStyle& style) {
 }
 
 void LandscapeRenderer::draw(const Frame& frame, const View& view, double seconds) {
-  check(view);
+  check_view(view);
   context_.make_current();
   RenderTarget& target = context_.target();
   target.resize(view.width, view.height);

@@ -3,7 +3,6 @@
 
 #include "renderers/contexts.h"
 #include "renderers/gl.h"
-#include "renderers/shared_library.h"
 #include "terrain/machine_error.h"
 
 namespace terrabench {

@@ -11,8 +11,6 @@
 namespace terrabench {
 namespace {
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 // The first i < n for which `bad` holds, or n.
 template <class Bad>
 std::size_t first_bad(std::size_t n, const Bad& bad) {
@@ -44,14 +42,14 @@ void check_mesh(const TriangleMesh& mesh, std::string_view where) {
     throw bad_input(fmt::format("{} triangles are too many for one mesh", mesh.triangles()), where,
                     "split it into meshes of fewer than 2^32 triangles");
   }
-  const std::size_t position = first_bad(n, [&](std::size_t i) { return !finite(mesh.positions[i]); });
+  const std::size_t position = first_bad(n, [&](std::size_t i) { return !is_finite(mesh.positions[i]); });
   if (position < n) {
     const glm::vec3 p = mesh.positions[position];
     throw bad_input(fmt::format("position {} ({}, {}, {}) is not finite", position, p.x, p.y, p.z), where,
                     "remove the triangles that use it, or correct what computed it");
   }
   const std::size_t normals = mesh.normals.size();
-  const std::size_t normal = first_bad(normals, [&](std::size_t i) { return !finite(mesh.normals[i]); });
+  const std::size_t normal = first_bad(normals, [&](std::size_t i) { return !is_finite(mesh.normals[i]); });
   if (normal < normals) {
     throw bad_input(fmt::format("normal {} is not finite", normal), where,
                     "recompute the normals with compute_normals()");

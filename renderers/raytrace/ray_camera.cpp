@@ -8,11 +8,6 @@
 #include "terrain/error.h"
 
 namespace terrabench {
-namespace {
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-}  // namespace
 
 RayCamera::RayCamera(const View& view) : eye_(view.eye) {
   if (view.width < 1 || view.height < 1 || view.width > kLargestSide || view.height > kLargestSide) {
@@ -22,8 +17,8 @@ RayCamera::RayCamera(const View& view) : eye_(view.eye) {
   forward_ = glm::normalize(view.target - view.eye);
   right_ = glm::normalize(glm::cross(forward_, view.up));
   up_ = glm::cross(right_, forward_);
-  const bool good =
-      finite(forward_) && finite(right_) && finite(up_) && view.vertical_fov > 0 && view.vertical_fov < 3.14F;
+  const bool good = is_finite(forward_) && is_finite(right_) && is_finite(up_) && view.vertical_fov > 0 &&
+                    view.vertical_fov < 3.14F;
   if (!good) {
     throw usage_error("invalid view", "ray tracing",
                       "the eye and its target must be finite and differ, up must point to another direction, "

@@ -16,7 +16,7 @@
 
 #include "terrain/mesh.h"
 #include "terrain/progress.h"
-#include "terrain/ray.h"
+#include "terrain/solid.h"
 
 namespace terrabench {
 

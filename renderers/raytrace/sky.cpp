@@ -8,6 +8,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "terrain/error.h"
+#include "terrain/solid.h"
 
 namespace terrabench {
 namespace {
@@ -15,9 +16,7 @@ namespace {
 constexpr float kPi = glm::pi<float>();
 constexpr glm::vec3 kLuminance{0.2126F, 0.7152F, 0.0722F};
 
-bool in_range(const glm::vec3& v) {
-  return std::min({v.x, v.y, v.z}) >= 0 && std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool in_range(const glm::vec3& v) { return std::min({v.x, v.y, v.z}) >= 0 && is_finite(v); }
 
 // CIE luminance and chromaticities to linear sRGB. Colours out of its gamut are cut off.
 glm::vec3 from_chromaticity(const glm::vec3& v) {

@@ -24,30 +24,6 @@ constexpr std::array<std::string_view, 3> kFitNames{"monotone", "printed", "vert
 constexpr std::array kFits{DrillFit::kMonotone, DrillFit::kPrinted, DrillFit::kVertex};
 constexpr float kMostHeight = 1e9F;  // CrossSections treats heights far below as no data
 
-std::vector<ParameterSpec> make_parameters() {
-  const std::span<const ParameterSpec> grid = column_parameters();
-  std::vector<ParameterSpec> specs(grid.begin(), grid.end());
-  specs.insert(
-      specs.end(),
-      {{"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 4294967295.0},
-       {"w", std::int64_t{10}, "samples", "length of the cross-sections", 1, Drills::kMaxInfluence},
-       {"k", std::int64_t{10}, "samples", "influence: a drill's window is 2k + 1 wide", 0,
-        Drills::kMaxInfluence},
-       choice(
-           "fit", kFitNames,
-           "shapes: never falling from the centre outward, as printed in §2.2 (free but for the centre), or "
-           "parabolas with their vertex at the centre"),
-       {"monotone_profiles", false, "", "elevations never rise downstream, so that no pit is left"},
-       {"adaptive_k", false, "", "an influence per drill, up to k"},
-       {"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
-       {"quantum", 0.0, "m",
-        "elevations are rounded to multiples of it; 0: about 1/256 of the range of heights", 0, 1e6},
-       {"budget_bytes", std::int64_t{0}, "B",
-        "choose tau, w, k and quantum for at most so many bytes of drills; 0: no budget", 0, 1e15},
-       {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for at most this error; 0: no budget", 0, 1e9}});
-  return specs;
-}
-
 DrillOptions options_from(const Parameters& parameters) {
   DrillOptions options;
   options.tau = static_cast<std::uint32_t>(parameters.integer("tau"));
@@ -73,8 +49,25 @@ Heightfield as_field(const Heightmap& map) {
 }  // namespace
 
 std::span<const ParameterSpec> DrillTerrain::parameters() {
-  static const std::vector<ParameterSpec> specs = make_parameters();
-  return specs;
+  static const std::vector<ParameterSpec> kSpecs = column_parameters_and({
+      {"tau", std::int64_t{25}, "pixels", "least flow of a channel", 1, 4294967295.0},
+      {"w", std::int64_t{10}, "samples", "length of the cross-sections", 1, Drills::kMaxInfluence},
+      {"k", std::int64_t{10}, "samples", "influence: a drill's window is 2k + 1 wide", 0,
+       Drills::kMaxInfluence},
+      choice(
+          "fit", kFitNames,
+          "shapes: never falling from the centre outward, as printed in §2.2 (free but for the centre), or "
+          "parabolas with their vertex at the centre"),
+      {"monotone_profiles", false, "", "elevations never rise downstream, so that no pit is left"},
+      {"adaptive_k", false, "", "an influence per drill, up to k"},
+      {"interpolate_untouched", false, "", "interpolate pixels that no drill touches"},
+      {"quantum", 0.0, "m",
+       "elevations are rounded to multiples of it; 0: about 1/256 of the range of heights", 0, 1e6},
+      {"budget_bytes", std::int64_t{0}, "B",
+       "choose tau, w, k and quantum for at most so many bytes of drills; 0: no budget", 0, 1e15},
+      {"max_rmse", 0.0, "m", "choose tau, w, k and quantum for at most this error; 0: no budget", 0, 1e9},
+  });
+  return kSpecs;
 }
 
 DrillTerrain::DrillTerrain(Drills drills, HeightGrid grid) : drills_(std::move(drills)) {
@@ -131,9 +124,7 @@ Memory DrillTerrain::memory() const {
     memory += payload_memory(*numbers);
   }
   memory += payload_memory(drills_.influence);
-  memory += index_memory(drills_.pixel);
-  memory += index_memory(drills_.direction);
-  memory += index_memory(drills_.holes);
+  memory += index_memory(drills_.pixel, drills_.direction, drills_.holes);
   memory.index += heap_bytes(this);
   return memory;
 }

@@ -26,12 +26,12 @@ void write_own_form(const Path& path, const RepresentationType& type, const Repr
 }
 
 void write_raster(const Path& path, const RepresentationType&, const Representation& built,
-                  const LineGrid& lines, Progress& progress) {
-  const auto fill = [&](int first, std::span<float> heights) { topmost(built, lines, first, heights); };
-  write_geotiff(path,
-                {lines.width, lines.depth, static_cast<float>(lines.cell_x), static_cast<float>(lines.cell_z),
-                 lines.georeference, fill},
-                "m", &progress);
+                  const LineGrid& lines, Progress&) {
+  Heightfield field = Heightfield::zeros(lines.width, lines.depth, static_cast<float>(lines.cell_x),
+                                         static_cast<float>(lines.cell_z));
+  field.georeference = lines.georeference;
+  topmost(built, lines, 0, field.heights);
+  write_geotiff(path, field);
 }
 
 void write_polygons(const Path& path, const RepresentationType&, const Representation& built, const LineGrid&,

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "terrain/error.h"
+#include "terrain/files.h"
 #include "terrain/memory.h"
-#include "terrain/new_file.h"
 
 namespace terrabench {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "terrain/error.h"
-#include "terrain/new_file.h"
+#include "terrain/files.h"
 
 namespace terrabench {
 namespace {

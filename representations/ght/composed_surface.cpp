@@ -281,8 +281,7 @@ void ComposedSurface::remove(const Tree& tree, FaceId f) noexcept {
 }
 
 Memory ComposedSurface::memory() const {
-  Memory memory = index_memory(tile_of_);
-  memory += index_memory(tiles_);
+  Memory memory = index_memory(tile_of_, tiles_);
   memory += payload_memory(faces_);
   memory += index_memory(entries_);
   return memory;

@@ -19,15 +19,6 @@ namespace {
 
 using namespace ght;
 
-std::vector<ParameterSpec> make_parameters() {
-  const std::span<const ParameterSpec> grid = column_parameters();
-  std::vector<ParameterSpec> specs(grid.begin(), grid.end());
-  specs.push_back({"events", true, "", "apply the terrain's events; if false, build its ground only"});
-  specs.push_back({"most_cells", static_cast<std::int64_t>(Tree::kMostCells), "cells", "at most in the tree",
-                   1, static_cast<double>(Tree::kMostCells)});
-  return specs;
-}
-
 void check_room(std::size_t samples, const Parameters& parameters) {
   if (samples > static_cast<std::uint64_t>(parameters.integer("most_cells"))) {
     throw environment_error("the ground has more samples than most_cells", "grounded heightmap tree",
@@ -107,8 +98,12 @@ void find_squares(const Model& model, Columns where, std::size_t first, std::arr
 }  // namespace
 
 std::span<const ParameterSpec> Ght::parameters() {
-  static const std::vector<ParameterSpec> specs = make_parameters();
-  return specs;
+  static const std::vector<ParameterSpec> kSpecs = column_parameters_and({
+      {"events", true, "", "apply the terrain's events; if false, build its ground only"},
+      {"most_cells", static_cast<std::int64_t>(Tree::kMostCells), "cells", "at most in the tree", 1,
+       static_cast<double>(Tree::kMostCells)},
+  });
+  return kSpecs;
 }
 
 Ght::Ght(const SampleGrid& grid, std::vector<float> heights, float floor) {

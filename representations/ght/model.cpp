@@ -20,8 +20,7 @@ void NodeIndex::add(const SquareRange& range, NodeId node) noexcept {
 }
 
 Memory NodeIndex::memory() const {
-  Memory memory = index_memory(first_);
-  memory += index_memory(entries_);
+  Memory memory = index_memory(first_, entries_);
   return memory;
 }
 

@@ -64,8 +64,7 @@ Memory Tree::memory() const {
   Memory memory = cells_.payload();
   memory += kinds_.payload();
   memory += pages_.index();
-  memory += index_memory(nodes_);
-  memory += index_memory(events_);
+  memory += index_memory(nodes_, events_);
   return memory;
 }
 

@@ -43,8 +43,7 @@ class TwoPartArray {
   const std::vector<T>& first() const { return first_; }
   const std::vector<T>& second() const { return second_; }
   Memory payload() const {
-    Memory memory = payload_memory(first_);
-    memory += payload_memory(second_);
+    Memory memory = payload_memory(first_, second_);
     return memory;
   }
   Memory index() const {

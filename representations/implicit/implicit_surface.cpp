@@ -37,18 +37,15 @@ FieldLattice chosen_lattice(const ColumnGrid& grid, double cell) {
 }  // namespace
 
 std::span<const ParameterSpec> ImplicitSurface::parameters() {
-  static const std::vector<ParameterSpec> kSpecs = [] {
-    const std::span<const ParameterSpec> columns = column_parameters();
-    std::vector<ParameterSpec> specs(columns.begin(), columns.end());
-    specs.push_back(choice("kernel", kKernelNames, "support of the convolution; the cube is faster"));
-    specs.push_back({"radius", 0.0, "m", "of the kernel; 0: two columns", 0, 1e9});
-    specs.push_back({"cell", 0.0, "m",
-                     "distance of the points at which the surface is sampled; 0: one column, or a 1024th of "
-                     "the terrain's height if that is more",
-                     0, 1e9});
-    specs.push_back(choice("extractor", kExtractorNames, "of the surface from the samples"));
-    return specs;
-  }();
+  static const std::vector<ParameterSpec> kSpecs = column_parameters_and({
+      choice("kernel", kKernelNames, "support of the convolution; the cube is faster"),
+      {"radius", 0.0, "m", "of the kernel; 0: two columns", 0, 1e9},
+      {"cell", 0.0, "m",
+       "distance of the points at which the surface is sampled; 0: one column, or a 1024th of "
+       "the terrain's height if that is more",
+       0, 1e9},
+      choice("extractor", kExtractorNames, "of the surface from the samples"),
+  });
   return kSpecs;
 }
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/solid.h"
+#include "terrain/mesh.h"
 
 namespace terrabench {
 
@@ -50,16 +50,5 @@ struct FaceMesh {
     add_face(std::span(vertices.begin(), vertices.size()));
   }
 };
-
-// Of any points; zero for none.
-inline Bounds box_of(std::span<const glm::vec3> positions) {
-  if (positions.empty()) return {};
-  Bounds box{positions[0], positions[0]};
-  for (const glm::vec3& p : positions) {
-    box.low = glm::min(box.low, p);
-    box.high = glm::max(box.high, p);
-  }
-  return box;
-}
 
 }  // namespace terrabench

@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kNamed = 16;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-bool finite(glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
 // One face's passage through an edge, from `corner` to the next.
 struct Half {
   std::uint32_t low, high, corner;
@@ -47,7 +45,7 @@ class Check {
 
   void positions() {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-      if (finite(mesh_.positions[v])) continue;
+      if (is_finite(mesh_.positions[v])) continue;
       fault(MeshFault::kNotFinite, [&] { return fmt::format("vertex {}: its position is not finite", v); });
     }
   }
@@ -220,14 +218,14 @@ std::vector<VertexInEdge> vertices_in_edges(std::span<const glm::vec3> positions
   std::vector<std::pair<double, std::uint32_t>> ends;
   for (const auto& [a, b] : edges) {
     for (const std::uint32_t v : {a, b}) {
-      if (finite(positions[v])) ends.emplace_back(positions[v].x, v);
+      if (is_finite(positions[v])) ends.emplace_back(positions[v].x, v);
     }
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   std::vector<VertexInEdge> found;
   for (const VertexPair& edge : edges) {
-    if (!finite(positions[edge.first]) || !finite(positions[edge.second])) continue;
+    if (!is_finite(positions[edge.first]) || !is_finite(positions[edge.second])) continue;
     const glm::dvec3 a(positions[edge.first]), b(positions[edge.second]), along = b - a;
     // Half a unit in the last place along each axis, for the result and for a sum or a product before it.
     const double rounding =

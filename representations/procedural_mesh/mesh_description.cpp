@@ -17,8 +17,6 @@ constexpr std::uint32_t kGround = 1, kModel = 2;
 constexpr std::size_t kMostFaces = std::size_t{1} << 24;  // of a model
 constexpr int kMostLines = ColumnGrid::kMaxColumns + 2;   // a solid's texture has a border
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 void check_lines(const std::vector<float>& at, const ByteSource& in) {
   if (!std::all_of(at.begin(), at.end(), [](float v) { return std::isfinite(v); }) ||
       !std::is_sorted(at.begin(), at.end())) {
@@ -69,7 +67,7 @@ void load_ground(ByteSource& in, bool encoded, MeshDescription& out) {
               : in.get_array<float>(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(depth));
   out.ground_bounds = in.get<Bounds>();
   const Bounds& bounds = out.ground_bounds;
-  if (!(finite(bounds.low) && finite(bounds.high) && glm::min(bounds.low, bounds.high) == bounds.low)) {
+  if (!(is_finite(bounds.low) && is_finite(bounds.high) && glm::min(bounds.low, bounds.high) == bounds.low)) {
     in.fail("the bounds are impossible");
   }
   if (encoded) clamp_heights(out.ground.heights, bounds.low.y, bounds.high.y);
@@ -90,7 +88,8 @@ FaceMesh expand_model(const MeshDescription& description, const std::string& ori
   FaceMesh mesh = growing::expand(model).mesh;
   for (glm::vec3& p : mesh.positions) {
     p = p * description.scale + description.offset;
-    if (!finite(p)) throw bad_input("the model's vertices lie beyond all numbers", origin, "scale it less");
+    if (!is_finite(p))
+      throw bad_input("the model's vertices lie beyond all numbers", origin, "scale it less");
   }
   return mesh;
 }
@@ -147,7 +146,7 @@ MeshDescription MeshDescription::load(ByteSource& in, bool encoded) {
     description.model.assign(text.begin(), text.end());
     description.scale = in.get<float>();
     description.offset = in.get<glm::vec3>();
-    if (!(description.scale > 0 && std::isfinite(description.scale) && finite(description.offset))) {
+    if (!(description.scale > 0 && std::isfinite(description.scale) && is_finite(description.offset))) {
       in.fail("the model's place is impossible");
     }
   }

@@ -16,8 +16,8 @@
 #include <mutex>
 
 #include "terrain/error.h"
+#include "terrain/files.h"
 #include "terrain/machine_error.h"
-#include "terrain/new_file.h"
 
 namespace terrabench {
 namespace {

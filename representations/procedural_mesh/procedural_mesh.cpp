@@ -18,18 +18,6 @@ namespace {
 
 constexpr int kMostLevels = 16;
 
-std::vector<ParameterSpec> make_parameters() {
-  const std::span<const ParameterSpec> grid = column_parameters();
-  std::vector<ParameterSpec> specs(grid.begin(), grid.end());
-  specs.push_back({"levels", std::int64_t{4}, "",
-                   "subdivisions from the coarsest plane to the samples; a small field has fewer", 0,
-                   kMostLevels});
-  specs.push_back({"leave_out", std::int64_t{0}, "",
-                   "late subdivisions to leave out, of a plane or a model, for a coarser mesh", 0,
-                   kMostLevels});
-  return specs;
-}
-
 std::vector<float> lines(int samples, double origin, double cell) {
   std::vector<float> at(static_cast<std::size_t>(samples));
   for (std::size_t i = 0; i < at.size(); ++i)
@@ -108,7 +96,12 @@ void add_spans(std::span<const Crossing> crossings, float floor, SpanSink& out) 
 }  // namespace
 
 std::span<const ParameterSpec> ProceduralMesh::parameters() {
-  static const std::vector<ParameterSpec> kSpecs = make_parameters();
+  static const std::vector<ParameterSpec> kSpecs = column_parameters_and({
+      {"levels", std::int64_t{4}, "",
+       "subdivisions from the coarsest plane to the samples; a small field has fewer", 0, kMostLevels},
+      {"leave_out", std::int64_t{0}, "",
+       "late subdivisions to leave out, of a plane or a model, for a coarser mesh", 0, kMostLevels},
+  });
   return kSpecs;
 }
 
@@ -209,10 +202,8 @@ std::size_t ProceduralMesh::description_bytes() const {
 
 Memory ProceduralMesh::memory() const {
   Memory memory = columns_.memory();
-  memory += payload_memory(description_.ground.x);
-  memory += payload_memory(description_.ground.z);
-  memory += payload_memory(description_.ground.heights);
-  memory += payload_memory(description_.model);
+  memory += payload_memory(description_.ground.x, description_.ground.z, description_.ground.heights,
+                           description_.model);
   memory.index += heap_bytes(this);
   return memory;
 }

@@ -189,10 +189,8 @@ void TriangleColumns::prefetch(std::span<const float> x, std::span<const float> 
 }
 
 Memory TriangleColumns::memory() const {
-  Memory memory = payload_memory(positions_);
-  memory += payload_memory(triangles_);
-  memory += index_memory(first_);
-  memory += index_memory(inside_);
+  Memory memory = payload_memory(positions_, triangles_);
+  memory += index_memory(first_, inside_);
   return memory;
 }
 

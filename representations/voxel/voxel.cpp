@@ -1,6 +1,5 @@
 #include "representations/voxel/voxel.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -13,30 +12,26 @@
 
 #include "representations/coding/column_codec.h"
 #include "representations/runs.h"
-#include "representations/voxel/leaf_masks.h"
+#include "representations/voxel/block.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
 
 using Tree = openvdb::MaskTree;
-using Leaf = Tree::LeafNodeType;
+using Leaf = VoxelLeaf;
 using Coord = openvdb::Coord;
 // Reads without a lock and without registering with the tree: for trees that are not edited meanwhile.
 using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
 constexpr int kLeaf = kLeafSide;
-static_assert(Leaf::DIM == kLeaf);
 // The side, in voxels, of a tile at each depth: root and both inner levels. Depth -1 stands for no node.
 constexpr int kTileSize[] = {4096, 128, 8};
-
-// Tree coordinates: x, then z, then the level.
-Coord at(int i, int j, int level) { return {i, j, level}; }
 
 // Calls solid(bottom, top) for the stretches of one column, upward; neighbouring calls may touch.
 template <class Visit>
 void for_each_stretch(const Reader& reader, int i, int j, int levels, const Visit& solid) {
   for (int level = 0; level < levels;) {
-    if (const Leaf* leaf = reader.probeConstLeaf(at(i, j, level))) {
+    if (const Leaf* leaf = reader.probeConstLeaf(voxel_at(i, j, level))) {
       const auto byte = leaf->getValueMask().getWord<std::uint8_t>((i % kLeaf) * kLeaf + j % kLeaf);
       for (int bit = 0; bit < kLeaf;) {
         const auto rest = static_cast<std::uint8_t>(byte >> bit);
@@ -47,38 +42,12 @@ void for_each_stretch(const Reader& reader, int i, int j, int levels, const Visi
       }
       level += kLeaf;
     } else {
-      const int size = kTileSize[std::max(0, reader.getValueDepth(at(i, j, level)))];
+      const int size = kTileSize[std::max(0, reader.getValueDepth(voxel_at(i, j, level)))];
       const int top = std::min((level / size + 1) * size, levels);
-      if (reader.isValueOn(at(i, j, level))) solid(level, top);
+      if (reader.isValueOn(voxel_at(i, j, level))) solid(level, top);
       level = top;
     }
   }
-}
-
-// The leaves and full 8³ tiles over one 8 × 8 block of columns, of one material.
-struct Column8 {
-  Material material;
-  std::vector<std::unique_ptr<Leaf>> leaves;
-  std::vector<Coord> full;
-};
-
-Column8 cut(Material material, const std::vector<LeafMask>& masks, int i0, int j0) {
-  Column8 column{material, {}, {}};
-  for (std::size_t l = 0; l < masks.size(); ++l) {
-    const auto all = [&](std::uint64_t word) {
-      return std::all_of(masks[l].begin(), masks[l].end(), [&](std::uint64_t w) { return w == word; });
-    };
-    const Coord origin = at(i0, j0, static_cast<int>(l) * kLeaf);
-    if (all(0)) continue;
-    if (all(~std::uint64_t{0})) {
-      column.full.push_back(origin);
-      continue;
-    }
-    auto leaf = std::make_unique<Leaf>(origin);
-    for (unsigned x = 0; x < kLeaf; ++x) leaf->getValueMask().getWord<openvdb::Index64>(x) = masks[l][x];
-    column.leaves.push_back(std::move(leaf));
-  }
-  return column;
 }
 
 // The size that the allocator gives a block of so many bytes.
@@ -160,7 +129,7 @@ struct Voxel::Layers {
 Voxel::Voxel(const ColumnGrid& grid) : grid_(grid), layers_(std::make_unique<Layers>()) {}
 Voxel::~Voxel() = default;
 
-// The blocks are sampled and cut in parallel and added to the trees in order: cheaper than merging one tree
+// The blocks are sampled in parallel and added to the trees in order: cheaper than merging one tree
 // per thread, and the same tree for any number of threads.
 std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const Parameters& parameters,
                                              Progress& progress) {
@@ -171,7 +140,7 @@ std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const 
   tbb::enumerable_thread_specific<std::vector<Material>> samples;
   progress.begin("voxel", static_cast<std::uint64_t>(blocks_x) * static_cast<std::uint64_t>(blocks_z));
   constexpr int kBatch = 64;  // rows of blocks held beside the tree
-  std::vector<std::vector<Column8>> blocks;
+  std::vector<std::map<Material, VoxelBlock>> blocks;
   for (int first = 0; first < blocks_z; first += kBatch) {
     const int rows = std::min(kBatch, blocks_z - first);
     blocks.clear();
@@ -179,16 +148,14 @@ std::unique_ptr<Representation> Voxel::build(const TerrainSource& source, const 
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
       const int i0 = static_cast<int>(b % blocks_x) * kLeaf;
       const int j0 = (first + static_cast<int>(b / blocks_x)) * kLeaf;
-      for (const auto& [material, masks] : sample_masks(sampler, i0, j0, samples.local())) {
-        blocks[b].push_back(cut(material, masks, i0, j0));
-      }
+      blocks[b] = sample_block(sampler, i0, j0, samples.local());
       progress.advance();
     });
-    for (std::vector<Column8>& block : blocks) {
-      for (Column8& column : block) {
-        Tree& tree = built->layers_->of(column.material);
-        for (auto& leaf : column.leaves) tree.addLeaf(leaf.release());
-        for (const Coord& origin : column.full) tree.addTile(1, origin, true, true);
+    for (auto& of_materials : blocks) {
+      for (auto& [material, block] : of_materials) {
+        Tree& tree = built->layers_->of(material);
+        for (auto& leaf : block.leaves) tree.addLeaf(leaf.release());
+        for (const Coord& origin : block.full) tree.addTile(1, origin, true, true);
       }
     }
   }
@@ -235,7 +202,7 @@ void Voxel::materials(Points where, std::span<Material> out) const {
     const int level = lookup.level(where.y[p]);
     if (level < 0 || !lookup.column(where.x[p], where.z[p], i, j)) continue;
     for (std::size_t l = 0; l < readers.size(); ++l) {
-      if (readers[l].isValueOn(at(i, j, level))) out[p] = layers_->layers[l].material;
+      if (readers[l].isValueOn(voxel_at(i, j, level))) out[p] = layers_->layers[l].material;
     }
   }
 }
@@ -247,7 +214,7 @@ void Voxel::edit(Columns where, std::span<const Span> what) {
     int i, j;
     const LevelRange levels = grid_.quantise(what[c].bottom, what[c].top);
     if (levels.begin >= levels.end || !lookup.column(where.x[c], where.z[c], i, j)) continue;
-    const openvdb::CoordBBox box(at(i, j, levels.begin), at(i, j, levels.end - 1));
+    const openvdb::CoordBBox box(voxel_at(i, j, levels.begin), voxel_at(i, j, levels.end - 1));
     for (auto& layer : layers_->layers) {
       if (layer.material != what[c].material) layer.tree->fill(box, false, false);
     }

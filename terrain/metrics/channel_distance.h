@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "terrain/heightfield.h"
 
@@ -51,5 +52,14 @@ struct ChannelDistance {
 ChannelDistance channel_distance(const Heightfield& original, std::span<const std::uint32_t> channels,
                                  const Heightfield& other, std::span<const std::uint32_t> other_channels,
                                  ChannelSpace space);
+
+// Exact Euclidean distance transform of a grid (Meijster, Roerdink & Hesselink 2000; Felzenszwalb &
+// Huttenlocher 2012): a pass along columns, then along each row the lower envelope of one parabola per
+// column. O(n) for any set of points; parallel.
+
+// The squared distance from each of width × depth grid points, spaced cell_x and cell_z, to the nearest of
+// `points` (row-major indices, any order). All infinite when there are no points.
+std::vector<double> squared_distances(int width, int depth, double cell_x, double cell_z,
+                                      std::span<const std::uint32_t> points);
 
 }  // namespace terrabench

@@ -1,5 +1,4 @@
-#include "terrain/sources/catalogue.h"
-
+// The terrains that have a name: real ones read in place from packages, and generated ones.
 #include <fmt/format.h>
 
 #include <array>
@@ -95,10 +94,10 @@ TerrainSource from_drawing(std::string_view name) {
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
-     [](std::uint64_t) { return from_dem("jacksboro", jacksboro_vrt()); }},
+     [](std::uint64_t) { return from_dem("jacksboro", vrt(kJacksboro)); }},
     {"topobathy", "sea floor and coast off Vancouver Island, 120×91 samples of 2′",
      "ETOPO, in Debian's python-matplotlib-data",
-     [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
+     [](std::uint64_t) { return from_dem("topobathy", vrt(kTopobathy)); }},
     {"caves", "hills with overhangs and tunnels from 3-D noise, a cube of 128 m",
      "the hybrid paper's noise graph", [](std::uint64_t seed) { return noise::cave_source({.seed = seed}); }},
     {"diamond-square", "mountains that close on themselves, 513×513 samples of 30 m", "diamond-square method",
@@ -124,9 +123,6 @@ constexpr TerrainType kTerrains[] = {
 bool looks_like_path(std::string_view text) { return text.find_first_of("./\\<") != std::string_view::npos; }
 
 }  // namespace
-
-std::string jacksboro_vrt() { return vrt(kJacksboro); }
-std::string topobathy_vrt() { return vrt(kTopobathy); }
 
 std::span<const TerrainType> terrains() { return kTerrains; }
 

@@ -1,4 +1,2 @@
 terrabench_fuzz(representations_fuzz SOURCES representations_fuzz.cpp LIBRARIES representations)
-terrabench_fuzz(drill_codec_fuzz SOURCES drill_codec_fuzz.cpp LIBRARIES representations)
-terrabench_fuzz(ght_codec_fuzz SOURCES ght_codec_fuzz.cpp LIBRARIES representations)
 terrabench_fuzz(model_fuzz SOURCES model_fuzz.cpp LIBRARIES representations)

@@ -1,14 +1,20 @@
 // Saved structures: the container, and each type's own reader, which mutations rarely reach behind the
-// container's checksum.
+// container's checksum. Any bytes are refused, or load to a structure that can be queried, inspected, meshed
+// and edited, and that saves to bytes that load to the same.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <span>
 
+#include "representations/ght/ght.h"
+#include "representations/ght/invariants.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "terrain/error.h"
+#include "terrain/events/evaluate.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -18,7 +24,12 @@ using namespace terrabench;
 // The first byte of an input: a type's own reader, that of its encoded form, or the container.
 constexpr std::uint8_t kEncoded = 128, kContainer = 255;
 
-// A loaded structure must also answer queries, and save the bytes that it was loaded from.
+std::vector<std::byte> saved(const Representation& structure) {
+  ByteSink sink;
+  structure.save(sink);
+  return {sink.bytes().begin(), sink.bytes().end()};
+}
+
 void use(const RepresentationType& type, Representation& structure) {
   const Bounds bounds = structure.bounds();
   const std::array x{bounds.low.x, bounds.high.x, 0.5F * (bounds.low.x + bounds.high.x)};
@@ -29,15 +40,42 @@ void use(const RepresentationType& type, Representation& structure) {
   std::array<Material, 3> materials;
   structure.materials({x, y, z}, materials);
   if (sink.columns() != x.size() || structure.memory().total() == 0) std::abort();
+  for (const Span& span : sink.all()) {
+    if (std::isinf(span.top)) std::abort();
+  }
+  (void)structure.mesh({});
+  if (const auto* const tree = dynamic_cast<const Ght*>(&structure)) {
+    (void)ght::broken_invariants(tree->model());  // a file may break any of them
+  }
   if (type.traits.editable && y[0] < y[1]) {
     structure.edit({std::span(x).first(1), std::span(z).first(1)},
                    std::array{Span{y[0], y[1], Material::kBedrock}});
   }
-  ByteSink saved;
-  structure.save(saved);
-  ByteSource again(saved.bytes(), "saved again");
-  type.load(again);
-  if (again.left() != 0) std::abort();
+  const std::vector<std::byte> first = saved(structure);
+  ByteSource again(first, "saved again");
+  if (saved(*type.load(again)) != first || again.left() != 0) std::abort();
+}
+
+// A ridge under events of all kinds.
+TerrainSource sculpted() {
+  using namespace events;
+  constexpr int kSide = 33;
+  Heightfield field = Heightfield::zeros(kSide, kSide);
+  for (int k = 0; k < kSide * kSide; ++k) {
+    field.heights[static_cast<std::size_t>(k)] =
+        20 - 2 * std::max(0.0F, std::abs(static_cast<float>(k % kSide) - 16) - 4);
+  }
+  Carving tunnel;
+  tunnel.from = {11, 12, 16};
+  tunnel.to = {21, 12, 16};
+  tunnel.section = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  TerrainSource source = source_of("sculpted", field);
+  source.events = std::make_shared<const Sculpture>(
+      Sculpture{field,
+                {DipFault{false, {12, 25}, {20, 25}, 4, 1, 60}, tunnel, LateralFault{{13, 6}, {18, 8}, 3, 2},
+                 DipFault{true, {13, 10}, {18, 10}, 2, 1, 50}, RadialErosion{{16, 20, 29}, {3, 2, 3}},
+                 LinearErosion{{15, 28}, {18, 30}, 1, 40}}});
+  return source;
 }
 
 }  // namespace
@@ -77,16 +115,25 @@ FuzzSeeds fuzz_seeds() {
   TerrainSource model =
       model_on_ground("[limits]\nfaces = 500\n[base]\nshape = \"cube\"\n[[step]]\nsubdivide = 1\n", "model",
                       source_of("ground", Heightfield::zeros(3, 3, 2, 2)), std::nullopt);
+  TerrainSource holes = heights;
+  holes.heights = Heightfield{24, 26, 30, 20, {}, {}};
+  for (int i = 0; i < 24 * 26; ++i) {
+    holes.heights->heights.push_back(i % 41 == 17 ? Heightfield::kNoData : static_cast<float>(i * 7919 % 97));
+  }
+  TerrainSource events = sculpted();
   FuzzSeeds seeds;
   Progress progress;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   for (std::size_t t = 0; t < representations().size(); ++t) {
     const RepresentationType& type = representations()[t];
-    for (const TerrainSource* source : {&boxes, &heights, &model}) {
+    for (const TerrainSource* source : {&boxes, &heights, &holes, &events, &model}) {
       Parameters parameters(type.parameters);
       parameters.set("resolution", std::int64_t{source == &boxes ? 40 : source == &model ? 8 : 0});
       for (const char* name : {"w", "tau"}) {
         if (parameters.has(name)) parameters.set(name, std::int64_t{1});
+      }
+      for (const char* name : {"adaptive_k", "interpolate_untouched"}) {
+        if (source == &holes && parameters.has(name)) parameters.set(name, true);
       }
       const auto built = type.build(*source, parameters, progress);
       for (const std::uint8_t form : {std::uint8_t{0}, kEncoded}) {

@@ -149,20 +149,6 @@ TEST_F(Relief, LetsTheNearerGroundHideTheFarther) {
   }
 }
 
-TEST_F(Relief, DrawsEdgesWhereTheyAre) {
-  const TriangleMesh mesh = ground(2, 100, [](float, float) { return 10.0F; });
-  const View view = from_above(100, 300, 63);
-  const Image plain = draw(mesh, view, {.lowest = 0, .highest = 20});
-  const Image wired = draw(mesh, view, {.lowest = 0, .highest = 20, .wireframe = true});
-  // The middle row and column are edges of the two by two cells; the diagonals run from lower left to upper
-  // right.
-  EXPECT_LT(luminance(wired.pixel(31, 10)), luminance(plain.pixel(31, 10)) - 30);
-  EXPECT_LT(luminance(wired.pixel(50, 31)), luminance(plain.pixel(50, 31)) - 30);
-  EXPECT_EQ(wired.pixel(10, 8), plain.pixel(10, 8));
-  // Wires do not affect the next picture.
-  EXPECT_EQ(draw(mesh, view, {.lowest = 0, .highest = 20}).rgb, plain.rgb);
-}
-
 TEST_F(Relief, OfAMeshWithoutNormalsShowsFacets) {
   TriangleMesh mesh = ground(8, 10000, hills);
   const View view = from_above(10000, 30000);

@@ -29,8 +29,8 @@ Image picture(GlContext& context) {
   const TriangleMesh mesh =
       testing::ground(39, 39, [](float x, float z) { return 3 * std::sin(0.4F * x) * std::cos(0.3F * z); });
   const Bounds box = bounds_of(mesh);
-  return render_relief(context, mesh, overview(box, 160, 120),
-                       {.lowest = box.low.y, .highest = box.high.y, .wireframe = true});
+  const Scene scene{.meshes = {{.mesh = &mesh, .wire_width = 1}}, .lowest = box.low.y, .highest = box.high.y};
+  return render_scene(context, scene, overview(box, 160, 120));
 }
 
 // On a GPU edges may differ by a shade; Mesa's software renderer is the same in all contexts.

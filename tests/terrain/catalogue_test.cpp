@@ -1,5 +1,3 @@
-#include "terrain/sources/catalogue.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // Pictures are read as they are stored: every bit, and no gamma.
-#include "terrain/grey_image.h"
-
 #include <gtest/gtest.h>
 
+#include "terrain/image.h"
 #include "terrain/source.h"
 #include "tests/terrain/errors.h"
 #include "tests/terrain/png_bytes.h"

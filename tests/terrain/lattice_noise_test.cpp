@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "terrain/error.h"
-#include "terrain/sources/noise/octaves.h"
+#include "terrain/sources/noise/code.h"
 #include "terrain/sources/noise/program.h"
 #include "tests/terrain/noise_reference.h"
 

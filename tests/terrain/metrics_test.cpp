@@ -7,7 +7,6 @@
 
 #include "terrain/error.h"
 #include "terrain/metrics/channel_distance.h"
-#include "terrain/metrics/distance_transform.h"
 #include "terrain/metrics/elevation_error.h"
 #include "terrain/metrics/nearest_point.h"
 #include "tests/terrain/ground.h"

@@ -1,5 +1,4 @@
 // A new file appears whole or not at all.
-#include "terrain/new_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -92,15 +92,16 @@ TEST(NoiseGraph, DescriptionTellsGraphsApart) {
 TEST(NoiseProgram, EqualExpressionsAreEvaluatedOnce) {
   Graph g;
   const auto hills = [&] { return g.fbm({.seed = 3, .frequency = 0.1F}); };
-  const Program twice(g, g.add(hills(), hills())), once(g, hills());
-  EXPECT_EQ(twice.instructions_per_batch(), once.instructions_per_batch() + 1);
+  const Code twice = compile(g, g.add(hills(), hills()), Mode::kColumn),
+             once = compile(g, hills(), Mode::kColumn);
+  EXPECT_EQ(twice.batch.size(), once.batch.size() + 1);
 }
 
 TEST(NoiseProgram, WhatIsConstantAlongAColumnRunsOncePerColumn) {
   Graph g;
   const Node flat = g.scale_domain(g.fbm({.seed = 3}), 1, 0, 1);
   const Program program(g, flat);
-  EXPECT_EQ(program.instructions_per_batch(), 0U);
+  EXPECT_TRUE(compile(g, flat, Mode::kColumn).batch.empty());
   const std::vector<float> values = column(program, {1.5F, 2.5F, -100.0F, 3.0F}, 200);
   for (const float v : values) EXPECT_EQ(v, values[0]);
   EXPECT_EQ(values[0], at(g, flat, 1.5F, 77.0F, 2.5F));
@@ -111,7 +112,7 @@ TEST(NoiseProgram, EveryModuleCanRunForEverySample) {
   const Node flat = g.scale_domain(g.fbm({.seed = 3}), 1, 0, 1);
   const Node root = g.select(g.fbm({.seed = 4}), g.ridged_multifractal({.seed = 5}), flat, 0.0F);
   const Program lazy(g, root), every(g, root, Evaluation::kEverySample);
-  EXPECT_GT(lazy.instructions_once(), every.instructions_once());
+  EXPECT_GT(compile(g, root, Mode::kColumn).once.size(), compile(g, root, Mode::kEverySample).once.size());
   const ColumnSamples at{1.5F, 2.5F, -100.0F, 0.37F};
   EXPECT_EQ(column(every, at, 300), column(lazy, at, 300));
 }

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "terrain/sources/noise/code.h"
-#include "terrain/sources/noise/lattice.h"
 
 namespace terrabench::noise::reference {
 

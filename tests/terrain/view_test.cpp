@@ -41,9 +41,7 @@ TEST(View, OverviewShowsTheWholeBoxAndFillsThePicture) {
       const View view = overview(box, width, height);
       float reach = 0;
       for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at = projected(
-            view, {(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
-                   (corner & 4) != 0 ? box.high.z : box.low.z});
+        const glm::vec3 at = projected(view, box.corner(corner));
         EXPECT_LE(std::abs(at.x), 1);
         EXPECT_LE(std::abs(at.y), 1);
         EXPECT_LE(std::abs(at.z), 1.001F);  // floats far from the origin round

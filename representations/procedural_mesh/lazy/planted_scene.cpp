@@ -75,11 +75,7 @@ Bounds joined(const std::vector<Estimate>& levels) {
 // Of the corners, widened by the rounding of their transformation.
 Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
   std::vector<glm::vec3> corners;
-  for (int k = 0; k < 8; ++k) {
-    const glm::vec3 corner{(k & 1) != 0 ? box.high.x : box.low.x, (k & 2) != 0 ? box.high.y : box.low.y,
-                           (k & 4) != 0 ? box.high.z : box.low.z};
-    corners.emplace_back(matrix * glm::vec4(corner, 1));
-  }
+  for (int k = 0; k < 8; ++k) corners.emplace_back(matrix * glm::vec4(box.corner(k), 1));
   Bounds result = box_of(corners);
   const glm::vec3 size = glm::max(glm::abs(result.low), glm::abs(result.high));
   const float rounding = 0x1p-20F * std::max({size.x, size.y, size.z});
@@ -175,11 +171,8 @@ std::vector<std::uint8_t> PlantedScene::choose_levels(const View& view,
 }
 
 Memory PlantedScene::memory() const {
-  Memory memory = payload_memory(instances_);
-  memory += payload_memory(boxes_);
-  memory += payload_memory(local_boxes_);
-  memory += index_memory(first_level_);
-  memory += index_memory(faces_);
+  Memory memory = payload_memory(instances_, boxes_, local_boxes_);
+  memory += index_memory(first_level_, faces_);
   return memory;
 }
 

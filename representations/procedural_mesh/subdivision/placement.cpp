@@ -92,7 +92,7 @@ void displace(const PlacementRule& rule, const Topology& t, std::uint32_t level,
     for (std::uint32_t i = 0; i < count; ++i) {
       glm::vec3& p = positions[first + i];
       p += sums[i];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      if (is_finite(p)) continue;
       std::uint32_t least = bad;  // the first bad vertex, whichever thread finds it
       while (first + i < least && !bad.compare_exchange_weak(least, first + i)) {
       }

@@ -85,17 +85,6 @@ NamedDem parse_dem(std::string_view name, const DemOptions& options = {});
 void write_geotiff(const std::filesystem::path& path, const Heightfield& field,
                    const std::string& unit = "m");
 
-// Heights that are made while they are written, so that only some rows are held.
-struct HeightRows {
-  int width = 0, depth = 0;            // samples along x and z, both ≥ 1
-  float cell_x = 1.0F, cell_z = 1.0F;  // metres; used where there is no georeference
-  Georeference georeference;
-  // Fills whole rows, from the given one on, in ascending order. No-data as in a Heightfield.
-  std::function<void(int first, std::span<float> heights)> fill;
-};
-void write_geotiff(const std::filesystem::path& path, const HeightRows& raster, const std::string& unit = "m",
-                   Progress* progress = nullptr);
-
 // Whether two texts name the same reference system; both empty: yes. Texts of the same system may differ.
 bool same_reference_system(const std::string& a, const std::string& b);
 

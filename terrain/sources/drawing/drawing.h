@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "terrain/grey_image.h"
 #include "terrain/heightfield.h"
+#include "terrain/image.h"
 
 namespace terrabench {
 

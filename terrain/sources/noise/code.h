@@ -1,5 +1,5 @@
-// The flat register program that a noise graph is compiled to, shared by the compiler (compiler.cpp) and the
-// per-instruction-set machine (machine.cpp). Registers are runs of floats in one scratch array: kMaxLanes
+// The flat register program that a noise graph is compiled to, shared by the compiler and the
+// per-instruction-set machine. Registers are runs of floats in one scratch array: kMaxLanes
 // equal values for what is constant along a column, kBatch values for what varies.
 #pragma once
 
@@ -8,9 +8,30 @@
 #include <span>
 #include <vector>
 
-#include "terrain/sources/noise/lattice.h"
+#include "terrain/sources/noise/graph.h"
 
 namespace terrabench::noise {
+
+// The gradient noise lattice. Odd multipliers that spread the three lattice coordinates over 32 bits before
+// they are combined.
+inline constexpr std::uint32_t kLatticeX = 0x9E3779B1U, kLatticeY = 0x85EBCA77U, kLatticeZ = 0xC2B2AE3DU;
+// Multipliers after each of the two xor-shifts of the lattice hash.
+inline constexpr std::uint32_t kMixXz = 0x7FEB352DU, kMixY = 0x846CA68BU;
+// A third of the 29 hash bits that choose a gradient's zero component.
+inline constexpr std::int32_t kThird = 0x0AAAAAAA;
+
+// Coordinates of at least this magnitude count as 0: their cell would not fit 32 bits.
+inline constexpr float kLatticeLimit = 1073741824.0F;  // 2^30
+
+// 1 / (the largest value of the sum of corner weights times the best gradient's product, 1.0363538), rounded
+// down so that float rounding cannot leave [-1, 1].
+inline constexpr float kNormalise = 0.96492F;
+
+// Shared lattice planes are used where y fits exactly and a batch has at least this many samples per cell:
+// making a plane costs half a sample's noise, and finding a sample's plane costs more the more planes a
+// vector spans.
+inline constexpr float kPlaneLimit = 4194304.0F;  // 2^22
+inline constexpr float kPlaneCost = 1.5F;
 
 inline constexpr std::uint32_t kMaxLanes = 16;  // lanes of the widest vector used
 inline constexpr std::uint32_t kMaxOctaves = 24;
@@ -58,12 +79,15 @@ struct Instruction {
   std::uint32_t jump = 0;
 };
 
+// One octave of a fractal: seed and offsets are drawn from the fractal's seed.
 struct Octave {
   std::uint32_t seed = 0;
   float frequency = 1;
   float offset_x = 0, offset_y = 0, offset_z = 0;
   float weight = 1;  // gain^i, divided by the sum of all of the fractal
 };
+
+std::vector<Octave> octaves(const Fractal&);
 
 // Interval arithmetic on one batch: step i computes interval i from earlier ones, the last is the control's.
 struct IntervalStep {
@@ -107,7 +131,21 @@ struct Samples {
   const float *xs = nullptr, *ys = nullptr, *zs = nullptr;
 };
 
-// Evaluates `count` samples into `out`.
+enum class Mode {
+  kColumn,
+  kPoints,
+  kEverySample  // points, without jumps: every instruction runs for every sample
+};
+Code compile(const Graph& graph, Node root, Mode mode);  // compiler.cpp
+
+struct Interval {
+  float low = 0, high = 0;
+};
+// 0 or 1 when kStep(control, p) has that value everywhere in a batch of a column, -1 when the bounds do not
+// decide. Tens of nanoseconds. (intervals.cpp)
+int decide_step(std::span<const IntervalStep> steps, const float* scratch, Interval y, float p);
+
+// Evaluates `count` samples into `out`. (machine.cpp)
 void execute(const Code& code, const Samples& samples, const Scratch& scratch, float* out, std::size_t count);
 
 }  // namespace terrabench::noise

@@ -1,5 +1,4 @@
-#include "terrain/sources/noise/compiler.h"
-
+// Turns a noise graph into Code, for columns or for arbitrary points.
 #include <array>
 #include <bit>
 #include <cassert>
@@ -8,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "terrain/sources/noise/octaves.h"
+#include "terrain/sources/noise/code.h"
 
 namespace terrabench::noise {
 namespace {

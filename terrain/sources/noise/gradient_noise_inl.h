@@ -17,7 +17,6 @@
 #include <hwy/highway.h>
 
 #include "terrain/sources/noise/code.h"
-#include "terrain/sources/noise/lattice.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrabench::noise {

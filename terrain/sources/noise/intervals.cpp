@@ -1,7 +1,10 @@
-#include "terrain/sources/noise/intervals.h"
-
+// Interval arithmetic over one batch of a column: proves that a step is wholly 0 or wholly 1 without
+// evaluating its control. Float rounding is monotone, so that the rounded ends of an interval, computed by
+// the machine's own operations, bound every rounded value inside.
 #include <algorithm>
 #include <cmath>
+
+#include "terrain/sources/noise/code.h"
 
 namespace terrabench::noise {
 namespace {

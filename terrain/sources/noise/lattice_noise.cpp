@@ -66,7 +66,6 @@ HWY_AFTER_NAMESPACE();
 #include <cmath>
 
 #include "terrain/error.h"
-#include "terrain/sources/noise/octaves.h"
 
 namespace terrabench::noise {
 

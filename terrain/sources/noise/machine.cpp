@@ -5,7 +5,6 @@
 #include <hwy/highway.h>
 
 #include "terrain/sources/noise/gradient_noise_inl.h"
-#include "terrain/sources/noise/intervals.h"
 #include "terrain/sources/noise/program.h"
 
 HWY_BEFORE_NAMESPACE();

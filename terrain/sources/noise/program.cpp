@@ -3,8 +3,6 @@
 #include <cassert>
 #include <vector>
 
-#include "terrain/sources/noise/compiler.h"
-
 namespace terrabench::noise {
 namespace {
 

@@ -44,10 +44,6 @@ class Program {
   // width·height values, row-major.
   void slice(const Slice& slice, std::span<float> out) const;
 
-  // The number of instructions run per column, and per batch: the effect of sharing and hoisting.
-  std::size_t instructions_once() const { return column_.once.size(); }
-  std::size_t instructions_per_batch() const { return column_.batch.size(); }
-
  private:
   Evaluation evaluation_;
   Code column_, points_;
