@@ -37,6 +37,10 @@ void Recorder::add_varying(std::string_view metric, std::string_view unit, doubl
   with_sample(metric, unit, sample, record_).varies = true;
 }
 
+void Recorder::add_frame(std::string_view metric, std::string_view unit, double sample) {
+  with_sample(metric, unit, sample, record_).series = true;
+}
+
 void Recorder::undefined(std::initializer_list<std::string_view> metrics, std::string_view reason) {
   for (const std::string_view metric : metrics) record_.undefined.emplace_back(metric, reason);
 }

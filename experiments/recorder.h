@@ -21,6 +21,8 @@ class Recorder {
   void add(std::string_view metric, std::string_view unit, double sample);
   // The same for a metric that varies from run to run although is_timing() of its unit is false.
   void add_varying(std::string_view metric, std::string_view unit, double sample);
+  // The same for a metric with a sample per frame of a path, in the frames' order: Metric::series.
+  void add_frame(std::string_view metric, std::string_view unit, double sample);
   // Records that the metrics have no value here, and why: "the ground is flat".
   void undefined(std::initializer_list<std::string_view> metrics, std::string_view reason);
   // Adds numerator ÷ denominator; if the denominator is 0, records that it is undefined and why.

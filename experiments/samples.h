@@ -1,6 +1,6 @@
 // How times are sampled: the pieces of work of a case in turn, each six times. A machine that others share is
 // slow for some tenths of a second at a time; samples taken one after the other would all be slow, or none,
-// and their confidence interval would not show it. differ() (results/store/statistics.h) says which of two
+// and their confidence interval would not show it. relation() (results/store/statistics.h) says which of two
 // sampled times may be called the longer one.
 #pragma once
 
@@ -10,28 +10,25 @@
 #include <vector>
 
 #include "experiments/recorder.h"
+#include "results/store/statistics.h"
 
 namespace terrabench {
 
-// With three samples in each of two runs, all samples of one run are longer than all of the other's in one
-// case of ten although nothing changed; with six in one of 462.
-inline constexpr int kSamples = 6;
+inline constexpr int kSamples = kFewestSamples;
 
-// How often one piece of work is called: kSamples times, or fewer where the calls take longer than `seconds`
-// together, but at least once.
+// How often one piece of work is called: kSamples times, or once if the first call takes longer than
+// `longest` seconds. Two to five samples would give no interval, and take longer than one.
 class Repetitions {
  public:
-  // By default only work of more than a second per call has fewer than kSamples.
-  explicit Repetitions(double seconds = kSamples) : seconds_(seconds) {}
-  bool more() const { return taken_ == 0 || (taken_ < kSamples && spent_ < seconds_); }
+  explicit Repetitions(double longest = 60) : longest_(longest) {}
+  bool more() const { return taken_ < wanted_; }
   void add(double seconds) {
-    ++taken_;
-    spent_ += seconds;
+    if (++taken_ == 1 && seconds > longest_) wanted_ = 1;
   }
 
  private:
-  double seconds_, spent_ = 0;
-  int taken_ = 0;
+  double longest_;
+  int wanted_ = kSamples, taken_ = 0;
 };
 
 // The pieces of work of one case.
@@ -42,7 +39,7 @@ class Samples {
   void add(std::string metric, std::string unit, std::function<double()> work);
   void time(std::string metric, std::function<void()> work);  // the seconds that it takes
 
-  // Calls each piece of work once per round until its Repetitions end (their time limit includes what it
+  // Calls each piece of work once per round until its Repetitions end (whose limit includes what it
   // prepares), records the samples and discards the work. What the work refers to must still exist.
   void take(Recorder&);
 

@@ -14,7 +14,6 @@
 #include "experiments/ght/site.h"
 #include "experiments/samples.h"
 #include "experiments/stopwatch.h"
-#include "results/store/statistics.h"
 #include "terrain/events/evaluate.h"
 
 namespace terrabench::ght {
@@ -31,17 +30,6 @@ const std::array kReachSpecs{
     ParameterSpec{"n", std::int64_t{1024}, "cells", "along each side of the terrain", 128, 16384},
     ParameterSpec{"size", std::int64_t{32}, "cells", "length of the events", 32, 4096},
 };
-
-// Calls sample(), which returns seconds: kSamples times, or fewer once they add up to a tenth of a second.
-// Returns their median.
-template <class Sample>
-double sample_times(const Sample& sample) {
-  std::vector<double> times;
-  for (Repetitions repetitions(0.1); repetitions.more(); repetitions.add(times.back())) {
-    times.push_back(sample());
-  }
-  return median(times);
-}
 
 double used(const Memory& memory) { return static_cast<double>(memory.payload + memory.index); }
 
@@ -129,31 +117,34 @@ class Peer {
     structure_ = method.build(source, Parameters(method.parameters), progress);
   }
 
-  // Records the whole time as a metric with this suffix; without one, all else too.
-  void measure(const Strokes& strokes, std::span<const double> tree_lengths, double tree_time, double cell,
-               std::string_view suffix, Recorder& recorder) {
-    bool first = suffix.empty();
-    const double whole = sample_times([&] {
-      const double before = used(structure_->memory()), columns_time = strokes.time_columns();
-      const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
-      if (suffix.empty()) recorder.add(fmt::format("{}_time", name_), "s", time);
-      recorder.add(fmt::format("{}_whole_time{}", name_, suffix), "s", columns_time + time);
-      if (std::exchange(first, false)) {  // on the untouched structure: an undone edit leaves nodes behind
+  // Takes one sample, `first` on the untouched structure: an undone edit leaves nodes behind. Records the
+  // whole time as a metric with this suffix; without one, all else too. `tree_time`: of the same round.
+  void sample(const Strokes& strokes, std::span<const double> tree_lengths, double tree_time, double cell,
+              bool first, std::string_view suffix, Recorder& recorder) {
+    const double before = used(structure_->memory()), columns_time = strokes.time_columns();
+    const double time = processor_seconds([&] { strokes.edit.paint(*structure_); });
+    const double whole = columns_time + time;
+    recorder.add(fmt::format("{}_whole_time{}", name_, suffix), "s", whole);
+    if (suffix.empty()) {
+      recorder.add(fmt::format("{}_time", name_), "s", time);
+      recorder.add_varying(fmt::format("ght_per_{}_time", name_), "", tree_time / whole);
+      if (first) {
         recorder.add(fmt::format("{}_bytes", name_), "B", used(structure_->memory()) - before);
-        const std::vector<double> lengths = solid_lengths(*structure_, strokes);
-        double differences = 0;
-        for (std::size_t c = 0; c < lengths.size(); ++c)
-          differences += std::abs(lengths[c] - tree_lengths[c]);
-        recorder.add(fmt::format("{}_difference", name_), "cells",
-                     differences / static_cast<double>(lengths.size()) / cell);
+        record_difference(solid_lengths(*structure_, strokes), tree_lengths, cell, recorder);
       }
-      strokes.undo.paint(*structure_);
-      return columns_time + time;
-    });
-    if (suffix.empty()) recorder.add_varying(fmt::format("ght_per_{}_time", name_), "", tree_time / whole);
+    }
+    strokes.undo.paint(*structure_);
   }
 
  private:
+  void record_difference(std::span<const double> lengths, std::span<const double> tree_lengths, double cell,
+                         Recorder& recorder) const {
+    double differences = 0;
+    for (std::size_t c = 0; c < lengths.size(); ++c) differences += std::abs(lengths[c] - tree_lengths[c]);
+    recorder.add(fmt::format("{}_difference", name_), "cells",
+                 differences / static_cast<double>(lengths.size()) / cell);
+  }
+
   std::string_view name_;
   std::unique_ptr<Representation> structure_;
 };
@@ -168,38 +159,44 @@ class Comparison {
   }
 
   // Records times as metrics with this suffix, those of the peers if asked for; without a suffix, all else
-  // too.
+  // too. All structures take turns.
   void measure(Kind kind, std::string_view suffix, bool peers) {
-    const bool alone = suffix.empty();
     const Event event = single_event(site_, kind);
     Strokes strokes;
     if (peers) strokes = strokes_of(site_, event);
-    if (alone) recorder_.add("columns", "", strokes.x.size());
+    if (suffix.empty()) recorder_.add("columns", "", strokes.x.size());
     std::vector<double> lengths;
-    const double tree_time = sample_times([&] {
-      const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
-      Ght& tree = *held;
-      // The tree's arrays start without spare capacity. The first event pays for their growth, so it is timed
-      // separately.
-      const double first = processor_seconds([&] { tree.apply(pebble()); });
-      if (alone) recorder_.add("first_event_time", "s", first);
-      const double before = used(tree.memory());
-      const std::uint32_t cells = tree.model().tree.cells();
-      const double time = processor_seconds([&] { tree.apply(event); });
-      recorder_.add(fmt::format("ght_time{}", suffix), "s", time);
-      if (alone && lengths.empty()) {
-        recorder_.add("ght_bytes", "B", used(tree.memory()) - before);
-        recorder_.add("ght_cells", "", tree.model().tree.cells() - cells);
-        lengths = solid_lengths(tree, strokes);
-      }
-      return time;
-    });
-    if (!peers) return;
-    for (Peer& peer : peers_)
-      peer.measure(strokes, lengths, tree_time, site_.ground.cell_x, suffix, recorder_);
+    for (int k = 0; k < kSamples; ++k) {
+      const double tree_time = sample_tree(event, strokes, suffix, lengths);
+      if (!peers) continue;
+      for (Peer& peer : peers_)
+        peer.sample(strokes, lengths, tree_time, site_.ground.cell_x, k == 0, suffix, recorder_);
+    }
   }
 
  private:
+  // Returns its seconds. `lengths`: those of the first sample.
+  double sample_tree(const Event& event, const Strokes& strokes, std::string_view suffix,
+                     std::vector<double>& lengths) {
+    const bool alone = suffix.empty();
+    const auto held = std::make_unique<Ght>(tree_);  // on the heap, as memory() counts the tree's own block
+    Ght& tree = *held;
+    // The tree's arrays start without spare capacity. The first event pays for their growth, so it is timed
+    // separately.
+    const double first = processor_seconds([&] { tree.apply(pebble()); });
+    if (alone) recorder_.add("first_event_time", "s", first);
+    const double before = used(tree.memory());
+    const std::uint32_t cells = tree.model().tree.cells();
+    const double time = processor_seconds([&] { tree.apply(event); });
+    recorder_.add(fmt::format("ght_time{}", suffix), "s", time);
+    if (alone && lengths.empty()) {
+      recorder_.add("ght_bytes", "B", used(tree.memory()) - before);
+      recorder_.add("ght_cells", "", tree.model().tree.cells() - cells);
+      lengths = solid_lengths(tree, strokes);
+    }
+    return time;
+  }
+
   // A crater of a few cells, away from the measured event.
   Event pebble() const {
     const double cell = site_.ground.cell_x, at = 6 * cell;

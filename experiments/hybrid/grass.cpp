@@ -92,8 +92,8 @@ void measure_table3(const Case& at, const RunOptions& options, Recorder& recorde
   });
   for (std::size_t i = 0; i < seconds.size(); ++i) {
     const std::size_t k = i % kCounts + 1;
-    recorder.add(fmt::format("frame_time_{}n", k), "s", seconds[i]);
-    recorder.add(fmt::format("frame_rate_{}n", k), "1/s", 1 / std::max(seconds[i], 1e-9));
+    recorder.add_frame(fmt::format("frame_time_{}n", k), "s", seconds[i]);
+    recorder.add_frame(fmt::format("frame_rate_{}n", k), "1/s", 1 / std::max(seconds[i], 1e-9));
   }
   // The three frames of a turn are compared with each other, then all turns by their median.
   for (std::size_t i = 0; i + kCounts <= seconds.size(); i += kCounts) {

@@ -160,7 +160,7 @@ void measure_table2(const Case& at, const RunOptions& options, Recorder& recorde
       recorder.terrain(noise::cave_source({.seed = options.seed, .every_cell = every_cell}));
   build_at_resolution("layered_stack", source, std::min<std::int64_t>(n, 64),
                       progress);  // warm caches, pool and clock
-  for (Repetitions builds(20); builds.more();) {
+  for (Repetitions builds; builds.more();) {
     const double time =
         seconds_to_make([&] { return build_at_resolution("layered_stack", source, n, progress); });
     builds.add(time);

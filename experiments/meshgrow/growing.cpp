@@ -12,6 +12,7 @@
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/meshgrow/fork.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/procedural_mesh/mesh_checks.h"
 
@@ -36,12 +37,9 @@ constexpr auto kDrawn = std::to_array<Drawn>({{"fractal_plane", true},
                                               {"bush_tupelo"},
                                               {"candle_holder"}});
 constexpr std::array kNames = names_of(kDrawn);
-const std::array kSpecs{choice("model", kNames, "model of the paper"),
-                        ParameterSpec{"runs", std::int64_t{5}, "", "expansions that are timed", 1, 1000}};
+const std::array kSpecs{choice("model", kNames, "model of the paper")};
 
-std::vector<Case> cases(const RunOptions& options) {
-  return cases_by("model", kSpecs, {{"runs", std::int64_t{options.profile == Profile::kPaper ? 15 : 5}}});
-}
+std::vector<Case> cases(const RunOptions&) { return cases_by("model", kSpecs); }
 
 Model read_model(const Case& test_case) {
   const std::string& name = test_case.parameters.text("model");
@@ -137,17 +135,16 @@ void measure_faults(const Model& model, bool open, const GrownMesh& whole, Recor
 
 void measure(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
   GrownMesh whole;
-  double best = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < test_case.integer("runs"); ++run) {
-    best = std::min(best, seconds([&] { whole = expand(read_model(test_case)); }));  // with reading its text
+  for (int k = 0; k < kSamples; ++k) {
+    const double time = seconds([&] { whole = expand(read_model(test_case)); });  // with reading its text
+    recorder.add("time", "s", time);
+    recorder.add("faces_per_second", "1/s", static_cast<double>(whole.mesh.faces()) / time);
+    // A polygon of n corners is n - 2 triangles.
+    const auto triangles = static_cast<double>(whole.mesh.corners.size() - 2 * whole.mesh.faces());
+    recorder.add("triangles_per_second", "1/s", triangles / time);
   }
   const Model model = read_model(test_case);
-  recorder.add("best_time", "s", best);
   recorder.add("faces", "", static_cast<double>(whole.mesh.faces()));
-  recorder.add("faces_per_second", "1/s", static_cast<double>(whole.mesh.faces()) / best);
-  // A polygon of n corners is n - 2 triangles.
-  const auto triangles = static_cast<double>(whole.mesh.corners.size() - 2 * whole.mesh.faces());
-  recorder.add("triangles_per_second", "1/s", triangles / best);
   recorder.add("model_bytes", "B", static_cast<double>(model.bytes));
   recorder.add("mesh_bytes", "B", bytes_of(whole.mesh));
   recorder.add("bytes_ratio", "", bytes_of(whole.mesh) / static_cast<double>(model.bytes));

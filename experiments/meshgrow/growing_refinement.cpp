@@ -1,6 +1,6 @@
 // The same refinement by ours, by OpenSubdiv and by OpenMesh: what §7's times of expansion are compared with.
 // Nothing is copied inside a timed call but what a library itself copies. Times on one thread are the
-// processor's, so that other work of the machine counts as little as possible; the shortest of several runs.
+// processor's, so that other work of the machine counts as little as possible. All take turns.
 #include <fmt/format.h>
 #include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/osd/cpuEvaluator.h>
@@ -17,6 +17,7 @@
 #include "experiments/cases.h"
 #include "experiments/experiment.h"
 #include "experiments/meshgrow/subdivision_peer.h"
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "representations/procedural_mesh/model.h"
 #include "representations/procedural_mesh/subdivision/subdivide.h"
@@ -33,23 +34,15 @@ using Points = std::vector<glm::vec3>;
 
 const std::array kSpecs{
     ParameterSpec{"levels", std::int64_t{6}, "", "refinements of the grown forking trunk", 1, 9},
-    ParameterSpec{"runs", std::int64_t{3}, "", "of each subdivider, in turn", 1, 1000},
 };
 
-std::vector<Case> cases(const RunOptions& options) {
-  const bool paper = options.profile == Profile::kPaper;
+std::vector<Case> cases(const RunOptions&) {
   std::vector<Case> cases;
   for (const std::int64_t levels : {5, 6, 7}) {
     cases.push_back({fmt::format("levels={}", levels), Parameters(kSpecs, {{"levels", levels}})});
-    cases.back().parameters.set("runs", std::int64_t{paper ? 9 : 3});
   }
   return cases;
 }
-
-struct Shortest {
-  double time = std::numeric_limits<double>::infinity();
-  void add(double seconds) { time = std::min(time, seconds); }
-};
 
 // Positions of all levels, in arrays that exist.
 void place_ours(const Refinement& refinement, std::vector<Points>& points) {
@@ -122,18 +115,20 @@ double difference(const Points& a, const Points& b) {
 }
 
 // Ours, from face arrays to face arrays: on one thread, and the peak of its memory on all.
-void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
+void measure_whole(const FaceMesh& base, int levels, Recorder& recorder) {
   const std::vector<subdivision::PlacementRule> rules(static_cast<std::size_t>(levels));
-  Shortest ours, openmesh;
   Points mine, theirs;
-  for (int run = 0; run < runs; ++run) {
-    ours.add(processor_seconds([&] { mine = subdivision::subdivide(base, rules).positions; }));
+  for (int k = 0; k < kSamples; ++k) {
+    const double ours = processor_seconds([&] { mine = subdivision::subdivide(base, rules).positions; });
     Polygons mesh = polygons_of(base);
     OpenMesh::Subdivider::Uniform::CatmullClarkT<Polygons> subdivider;
     subdivider.attach(mesh);
-    openmesh.add(processor_seconds([&] { subdivider(static_cast<std::size_t>(levels)); }));
+    const double openmesh = processor_seconds([&] { subdivider(static_cast<std::size_t>(levels)); });
     subdivider.detach();
-    if (run == 0) theirs = points_of(mesh);
+    if (k == 0) theirs = points_of(mesh);
+    recorder.add("whole_time", "s", ours);
+    recorder.add("openmesh_time", "s", openmesh);
+    recorder.add_varying("openmesh_over_ours", "", openmesh / ours);
   }
   const std::int64_t before = HeapCounter::live();
   HeapCounter::reset_peak();
@@ -141,15 +136,12 @@ void measure_whole(const FaceMesh& base, int levels, int runs, Recorder& recorde
   const auto peak = static_cast<double>(HeapCounter::peak() - before);
   const auto bytes = static_cast<double>(mesh.positions.size() * sizeof(glm::vec3) + mesh.corners.size() * 4);
   recorder.add("faces", "", static_cast<double>(mesh.faces()));
-  recorder.add("whole_time", "s", ours.time);
-  recorder.add("openmesh_time", "s", openmesh.time);
-  recorder.add_varying("openmesh_over_ours", "", openmesh.time / ours.time);
   recorder.add("openmesh_difference", "m", difference(mine, theirs));
   recorder.add_varying("peak_over_mesh", "", peak / bytes);
 }
 
 // Tables apart from positions that are computed with tables that exist.
-void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& recorder) {
+void measure_tables(const FaceMesh& base, int levels, Recorder& recorder) {
   const subdivision::RefinementOptions least{.keep = subdivision::Keep::kStencils};
   const auto refiner = opensubdiv_refiner(base, levels, kBoundary, false);
   const Table table = table_of(*refiner);
@@ -157,34 +149,34 @@ void measure_tables(const FaceMesh& base, int levels, int runs, Recorder& record
   std::vector<Points> points{base.positions};
   for (int l = 1; l <= levels; ++l) points.emplace_back(refinement.topology(l).vertices);
   Points theirs(static_cast<std::size_t>(table->GetNumStencils()));
-  Shortest tables, their_tables, one, their_one, all, their_all;
-  for (int run = 0; run < runs; ++run) {
-    tables.add(processor_seconds([&] { const Refinement again(base, levels, least); }));
-    their_tables.add(processor_seconds(
-        [&] { const Table again = table_of(*opensubdiv_refiner(base, levels, kBoundary, false)); }));
-    one.add(processor_seconds([&] { place_ours(refinement, points); }));
-    their_one.add(processor_seconds([&] { evaluate<Osd::CpuEvaluator>(*table, base.positions, theirs); }));
-    all.add(seconds([&] { place_ours(refinement, points); }));
-    their_all.add(seconds([&] { evaluate<Osd::OmpEvaluator>(*table, base.positions, theirs); }));
+  for (int k = 0; k < kSamples; ++k) {
+    const double tables = processor_seconds([&] { const Refinement again(base, levels, least); });
+    const double their_tables = processor_seconds(
+        [&] { const Table again = table_of(*opensubdiv_refiner(base, levels, kBoundary, false)); });
+    const double one = processor_seconds([&] { place_ours(refinement, points); });
+    const double their_one =
+        processor_seconds([&] { evaluate<Osd::CpuEvaluator>(*table, base.positions, theirs); });
+    const double all = seconds([&] { place_ours(refinement, points); });
+    const double their_all = seconds([&] { evaluate<Osd::OmpEvaluator>(*table, base.positions, theirs); });
+    recorder.add("tables_time", "s", tables);
+    recorder.add("opensubdiv_tables_time", "s", their_tables);
+    recorder.add_varying("tables_over_opensubdiv", "", tables / their_tables);
+    recorder.add("positions_time", "s", one);
+    recorder.add("opensubdiv_positions_time", "s", their_one);
+    recorder.add_varying("opensubdiv_over_ours", "", their_one / one);
+    recorder.add("parallel_positions_time", "s", all);
+    recorder.add("opensubdiv_parallel_positions_time", "s", their_all);
+    recorder.add_varying("opensubdiv_over_ours_parallel", "", their_all / all);
   }
-  recorder.add("tables_time", "s", tables.time);
-  recorder.add("opensubdiv_tables_time", "s", their_tables.time);
-  recorder.add_varying("tables_over_opensubdiv", "", tables.time / their_tables.time);
-  recorder.add("positions_time", "s", one.time);
-  recorder.add("opensubdiv_positions_time", "s", their_one.time);
-  recorder.add_varying("opensubdiv_over_ours", "", their_one.time / one.time);
-  recorder.add("parallel_positions_time", "s", all.time);
-  recorder.add("opensubdiv_parallel_positions_time", "s", their_all.time);
-  recorder.add_varying("opensubdiv_over_ours_parallel", "", their_all.time / all.time);
   recorder.add("opensubdiv_difference", "m", difference(points.back(), theirs));
 }
 
 void measure(const Case& test_case, const RunOptions&, Recorder& recorder, Progress&) {
   const growing::Model model = growing::parse_model(growing::model_text("forking_trunk"), "forking_trunk");
   const FaceMesh base = growing::expand(model, {.leave_out = {"smooth"}}).mesh;
-  const int levels = test_case.integer("levels"), runs = test_case.integer("runs");
-  measure_whole(base, levels, runs, recorder);
-  measure_tables(base, levels, runs, recorder);
+  const int levels = test_case.integer("levels");
+  measure_whole(base, levels, recorder);
+  measure_tables(base, levels, recorder);
 }
 
 }  // namespace

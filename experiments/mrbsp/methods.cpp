@@ -4,7 +4,9 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <span>
 
+#include "experiments/samples.h"
 #include "experiments/stopwatch.h"
 #include "renderers/frame_renderer.h"
 
@@ -85,12 +87,13 @@ std::vector<View> some_of(const std::vector<View>& views, std::size_t count) {
 std::vector<FrameTimes> time_frames(std::vector<Mrbsp>& lods, const Heightfield& ground,
                                     const std::vector<View>& views, const RunOptions& options,
                                     Progress& progress) {
-  constexpr int kRounds = 4;
+  constexpr std::size_t kRounds = kSamples;
   const auto context = open_context(options.renderer, views[0].width, views[0].height);
   std::vector<std::unique_ptr<FrameRenderer>> renderers(lods.size());
   const HeightRange range = height_range(ground);
   const FrameStyle style{.lowest = range.lowest, .highest = range.highest};
   std::vector<FrameTimes> times(lods.size());
+  std::vector<std::vector<double>> seconds(lods.size());  // of each method's frames, round by round
   std::vector<double> choosing(lods.size());
   // Seconds of the choice and of the whole frame.
   const auto draw = [&](std::size_t m, const View& view) {
@@ -114,14 +117,16 @@ std::vector<FrameTimes> time_frames(std::vector<Mrbsp>& lods, const Heightfield&
         const std::size_t m = round % 2 == 0 ? turn : lods.size() - 1 - turn;
         const auto [choice, frame] = draw(m, view);
         choosing[m] += choice;
-        times[m].frames.push_back(frame);
+        seconds[m].push_back(frame);
       }
       progress.advance();
     }
   }
   progress.end();
   for (std::size_t m = 0; m < lods.size(); ++m) {
-    const std::vector<double>& all = times[m].frames;
+    const std::vector<double>& all = seconds[m];
+    for (std::size_t round = 0; round < kRounds; ++round)
+      times[m].rounds.push_back(median(std::span(all).subspan(round * views.size(), views.size())));
     times[m].choosing_share = choosing[m] / std::accumulate(all.begin(), all.end(), 0.0);
     for (std::size_t v = 0; v < views.size(); ++v) {
       double least = all[v];

@@ -37,14 +37,16 @@ std::vector<View> some_of(const std::vector<View>& views, std::size_t count);
 
 // Of one method, with the choice of triangles and the drawing.
 struct FrameTimes {
-  std::vector<double> frames;  // seconds, round by round
+  // Of each round the median over all views, seconds. A round is a sample: it repeats the same frames, whose
+  // times differ from each other by what they show.
+  std::vector<double> rounds;
   // Of all views, each in its fastest round: other work of the machine only ever makes a frame slower, so
   // this is the least disturbed time.
   double least = 0;
   double choosing_share = 0;  // of all frames' time
 };
-// Draws every view with every method, four times. Methods alternate at every view, so that a slow period of
-// the machine affects all alike; every second round reverses their order, so that none always follows the
+// Draws every view with every method, kSamples times. Methods alternate at every view, so that a slow period
+// of the machine affects all alike; every second round reverses their order, so that none always follows the
 // same other one and inherits its caches. Every round has new renderers, made in another order: all frames of
 // one can take a third longer than those of another that draws the same.
 std::vector<FrameTimes> time_frames(std::vector<Mrbsp>& lods, const Heightfield&, const std::vector<View>&,

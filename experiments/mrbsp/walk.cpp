@@ -117,7 +117,7 @@ void record_times(Methods& methods, const Heightfield& ground, const std::vector
   const std::vector<FrameTimes> times = time_frames(methods.lods, ground, views, options, progress);
   for (std::size_t m = 0; m < kMethods; ++m) {
     const std::string_view name = kMethodNames[m];
-    for (const double time : times[m].frames) recorder.add(fmt::format("frame_time_{}", name), "s", time);
+    for (const double time : times[m].rounds) recorder.add(fmt::format("frame_time_{}", name), "s", time);
     recorder.add_varying(fmt::format("least_time_share_{}", name), "", times[m].least / times[kBrute].least);
   }
   recorder.add_varying("lod_frame_share", "", times[kLod].choosing_share);
@@ -197,7 +197,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   recorder.add("triangles_all", "", triangles_unculled(ground, views[0], progress));
   count_triangles(methods, views, recorder);
   for (const View& view : views)
-    recorder.add("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
+    recorder.add_frame("lod_time", "s", seconds([&] { methods.lods[kLod].update(view); }));
   time_flags(methods, ground, views, recorder);
   const auto pictures = static_cast<std::size_t>(at.parameters.integer("pictures"));
   if (pictures > 0) {

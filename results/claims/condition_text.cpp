@@ -16,7 +16,7 @@ std::string spoken(std::string metric) {
 }
 
 std::string show(const Quantity& q, double value) {
-  const std::string text = format_quantity(value, q.unit);
+  const std::string text = format_quantity(printed(value, q.timed), q.unit);
   return q.name.empty() ? text : q.name + " " + text;
 }
 
@@ -29,6 +29,16 @@ std::string missed_by(double value, double bound) {
     return fmt::format("{} times that", format_number(std::round(100 * value / bound) / 100));
   return bound == 0 ? fmt::format("{:.3g} {}", std::abs(distance), side)
                     : fmt::format("{:.3g} % {}", 100 * std::abs(distance / bound), side);
+}
+
+// Of a step that does not hold: by how much, or what is known instead of two times' order.
+std::string why_not(const ChainStep& step, double from, double to, bool in_order) {
+  if (!in_order) return from == to ? "" : fmt::format(" ({})", missed_by(from, to));
+  const Summary& ratio = *step.ratio;
+  if (ratio.count < kFewestSamples) return fmt::format(" (sampled fewer than {} times)", kFewestSamples);
+  return fmt::format(" ({}: × {:g} [{:g}, {:g}])",
+                     relation(ratio, true) == Relation::kTied ? "a tie" : "undecided", ratio.median,
+                     ratio.low, ratio.high);
 }
 
 // A remark for the reader if the 95 % interval leaves uncertain what the median decided.
@@ -44,7 +54,8 @@ std::string_view doubt(const Summary& s, double low, double high, bool holds) {
 
 Quantity quantity(const Operand& operand, const Metric& metric, bool name_case) {
   const std::string name = spoken(operand.metric);
-  return {metric.samples, name_case ? operand.case_name + " " + name : name, metric.unit, timed(metric)};
+  return {metric.samples,   name_case ? operand.case_name + " " + name : name, metric.unit, timed(metric),
+          order_of(metric), operand.experiment + "/" + operand.case_name};
 }
 
 bool names_cases(const Claim& claim) {
@@ -82,11 +93,15 @@ ConditionResult word_range(const Condition& condition, const std::vector<Quantit
     found.quantity = "growth of " + second.name;
     unit = "";
   }
+  const bool timed = first.timed || second.timed;
   const double low = condition.low, high = condition.high;
-  found.value = format_quantity(s.median, unit);
+  found.value = format_quantity(printed(s.median, timed), unit);
   found.expected = fmt::format("[{}, {}]", format_exact(low), format_exact(high));
   found.text = what + " " + found.value;
-  if (s.low != s.high) found.text += fmt::format(" [{}, {}]", format_number(s.low), format_number(s.high));
+  if (s.low != s.high) {
+    found.text +=
+        fmt::format(" [{}, {}]", format_number(printed(s.low, timed)), format_number(printed(s.high, timed)));
+  }
   found.text += fmt::format(", {} {}", holds ? "in" : "not in", found.expected);
   if (!holds) found.text += " but " + missed_by(s.median, s.median < low ? low : high);
   found.text += doubt(s, low, high, holds);
@@ -94,24 +109,25 @@ ConditionResult word_range(const Condition& condition, const std::vector<Quantit
 }
 
 ConditionResult word_chain(bool equal, const std::vector<Quantity>& quantities,
-                           const std::vector<double>& medians, const std::vector<bool>& holds,
+                           const std::vector<double>& medians, const std::vector<ChainStep>& steps,
                            std::size_t nearest) {
   const std::string_view sign = equal ? "=" : "<", broken = equal ? "≠" : "≥";
-  const auto failing = std::ranges::find(holds, false);
-  ConditionResult found{outcome(failing == holds.end()), show(quantities[0], medians[0]), "", "", ""};
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    found.text += fmt::format(" {} {}", holds[i] ? sign : broken, show(quantities[i + 1], medians[i + 1]));
-    if (!holds[i] && medians[i] != medians[i + 1]) {
-      found.text += fmt::format(" ({})", missed_by(medians[i], medians[i + 1]));
-    }
+  const auto failing = std::ranges::find(steps, false, &ChainStep::holds);
+  ConditionResult found{outcome(failing == steps.end()), show(quantities[0], medians[0]), "", "", ""};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool in_order = equal ? steps[i].holds : medians[i] < medians[i + 1];
+    found.text += fmt::format(" {} {}", in_order ? sign : broken, show(quantities[i + 1], medians[i + 1]));
+    if (!steps[i].holds) found.text += why_not(steps[i], medians[i], medians[i + 1], in_order);
   }
-  const std::size_t shown = failing == holds.end() ? nearest : failing - holds.begin();
+  const std::size_t shown = failing == steps.end() ? nearest : failing - steps.begin();
   // Of the pair, a plain number is the bound; without one, the second operand is.
   const bool bound_first = quantities[shown].name.empty();
   const std::size_t bound = bound_first ? shown : shown + 1, measured = bound_first ? shown + 1 : shown;
-  found.value = format_quantity(medians[measured], quantities[measured].unit);
-  found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign,
-                               format_quantity(medians[bound], quantities[bound].unit));
+  const auto value = [&](std::size_t k) {
+    return format_quantity(printed(medians[k], quantities[k].timed), quantities[k].unit);
+  };
+  found.value = value(measured);
+  found.expected = fmt::format("{} {}", bound_first && !equal ? ">" : sign, value(bound));
   found.quantity = quantities[measured].name;
   return found;
 }

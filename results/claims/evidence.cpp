@@ -40,35 +40,53 @@ std::optional<double> margin_in_range(double value, const Condition& condition) 
   return std::min(low != 0 ? margin_between(low, value) : 1.0, share ? 1.0 : margin_between(value, high));
 }
 
-// Decides whether the condition holds; word_range() and word_chain() make a finding of that. Medians decide.
-ConditionResult compare(const Condition& condition, const std::vector<Quantity>& quantities) {
-  const std::vector<double>&first = quantities[0].samples, &second = quantities.back().samples;
-  const auto in_range = [&](const Summary& s) {
-    const bool holds = s.median >= condition.low && s.median <= condition.high;
-    ConditionResult found = word_range(condition, quantities, s, holds);
-    if (holds) found.margin = margin_in_range(s.median, condition);
-    return found;
-  };
-  if (condition.kind == Kind::kWithin) return in_range(summarise(first));
-  if (condition.kind == Kind::kRatio) return in_range(summarise_ratio(first, second));
-  if (condition.kind == Kind::kGrowth) return in_range(summarise_ratio(second, first));
-  const bool equal = condition.kind == Kind::kEqual;  // else order: read() keeps figures apart
-  std::vector<double> medians, margins;
-  std::vector<bool> holds;  // for each median but the first: with the one before it
+Summary ratio_of(const Quantity& a, const Quantity& b) {
+  const bool series = a.order == Order::kSeries && b.order == Order::kSeries;
+  return summarise_ratio(a.samples, b.samples, series ? Order::kSeries : Order::kIndependent, a.of == b.of);
+}
+
+// Whether one is below the next. Two times or rates are compared by relation(), all else by the medians:
+// shares and ratios of times that were taken in turn, too, from which the speed of the machine cancels out.
+ChainStep below(const Quantity& a, const Quantity& b, double median_a, double median_b) {
+  if (!is_timing(a.unit) || !is_timing(b.unit)) return {median_a < median_b, std::nullopt};
+  const Summary ratio = three_digits(ratio_of(b, a));
+  return {relation(ratio, true) == Relation::kMore, ratio};
+}
+
+ConditionResult compare_chain(const Condition& condition, const std::vector<Quantity>& quantities) {
+  const bool equal = condition.kind == Kind::kEqual;
   constexpr double kNoBound = std::numeric_limits<double>::infinity();
-  bool from_zero = false;  // whether the operand before is the number 0, a bound that does not count
+  std::vector<double> medians, margins;
+  std::vector<ChainStep> steps;  // for each quantity but the first: with the one before it
   for (const Quantity& q : quantities) {
-    const double median = summarise(q.samples).median;
+    const double here = median(q.samples);
     if (!medians.empty()) {
-      holds.push_back(equal ? medians.back() == median : medians.back() < median);
-      margins.push_back(equal ? 0 : from_zero ? kNoBound : margin_between(medians.back(), median));
+      const double before = medians.back();
+      const Quantity& last = quantities[medians.size() - 1];
+      const bool from_zero = last.name.empty() && before == 0;  // a bound that does not count
+      steps.push_back(equal ? ChainStep{before == here, std::nullopt} : below(last, q, before, here));
+      margins.push_back(equal ? 0 : from_zero ? kNoBound : margin_between(before, here));
     }
-    from_zero = q.name.empty() && median == 0;
-    medians.push_back(median);
+    medians.push_back(here);
   }
   const auto nearest = std::ranges::min_element(margins);
-  ConditionResult found = word_chain(equal, quantities, medians, holds, nearest - margins.begin());
+  ConditionResult found = word_chain(equal, quantities, medians, steps, nearest - margins.begin());
   if (!equal && found.outcome == Outcome::kHolds && *nearest < kNoBound) found.margin = *nearest;
+  return found;
+}
+
+// Decides whether the condition holds; word_range() and word_chain() make a finding of that. Medians decide,
+// except on the order of two times.
+ConditionResult compare(const Condition& condition, const std::vector<Quantity>& quantities) {
+  if (condition.kind == Kind::kEqual || condition.kind == Kind::kOrder)
+    return compare_chain(condition, quantities);
+  const Quantity &first = quantities[0], &second = quantities.back();
+  const Summary s = condition.kind == Kind::kWithin  ? summarise(first.samples, first.order)
+                    : condition.kind == Kind::kRatio ? ratio_of(first, second)
+                                                     : ratio_of(second, first);
+  const bool holds = s.median >= condition.low && s.median <= condition.high;
+  ConditionResult found = word_range(condition, quantities, s, holds);
+  if (holds) found.margin = margin_in_range(s.median, condition);
   return found;
 }
 

@@ -14,8 +14,8 @@ struct Candidate {
   const RankingLayout::Entry* entry;
   const Record* record;
   const Metric* metric;
-  std::vector<double> samples;  // in the layout's unit
-  double median;
+  double to_unit;  // factor from its unit to the layout's
+  double median;   // in the layout's unit
 };
 
 // Words for the first entry whose unit cannot be converted, to the layout's or to the other entries'.
@@ -44,10 +44,8 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
       if (ranking.not_compared.empty()) ranking.not_compared = fault;
       continue;
     }
-    std::vector<double> samples = metric->samples;
-    for (double& sample : samples) sample *= *conversion(metric->unit, layout.unit);
-    const double middle = median(samples);
-    all.push_back({&entry, record, metric, std::move(samples), middle});
+    const double to_unit = *conversion(metric->unit, layout.unit);
+    all.push_back({&entry, record, metric, to_unit, to_unit * median(metric->samples)});
   }
   const auto needed_by = [&](const Candidate& c) { return c.record->find(for_row(layout.needs, *c.entry)); };
   const auto has = [&](const Candidate& c) { return needed_by(c) != nullptr; };
@@ -75,6 +73,16 @@ std::string why_not_compared(const std::vector<Candidate>& all, bool timing, con
   return "";
 }
 
+// How many times worse than the best.
+Summary factor_between(const Candidate& best, const Candidate& other, bool most) {
+  const Candidate &above = most ? best : other, &below = most ? other : best;
+  const Summary factor = summarise_ratio(*above.metric, *below.metric, best.record == other.record);
+  const bool zeros = above.median == 0 && below.median == 0;  // have no ratio
+  if (&best == &other || zeros) return {factor.count, 1, 1, 1};
+  const double units = above.to_unit / below.to_unit;
+  return three_digits({factor.count, factor.median * units, factor.low * units, factor.high * units});
+}
+
 }  // namespace
 
 std::span<const RankingLayout> ranking_layouts() {
@@ -96,21 +104,19 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
     return layout.most ? a.median > b.median : a.median < b.median;
   });
   const Candidate& best = all[0];
-  const bool timing = timed(*best.metric);
-  if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, timing, store);
-  ranking.too_few =
-      timing && all.size() > 1 && std::min(best.samples.size(), all[1].samples.size()) < kFewestSamples;
+  ranking.timed = timed(*best.metric);
+  if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, ranking.timed, store);
   for (const Candidate& c : all) {
-    const bool equal = c.median == best.median;  // two zeros have no ratio
-    const Summary factor = equal         ? Summary{1, 1, 1, 1}
-                           : layout.most ? summarise_ratio(best.samples, c.samples)
-                                         : summarise_ratio(c.samples, best.samples);
-    ranking.places.push_back({c.entry->label, c.median, factor});
+    ranking.places.push_back({c.entry->label, c.median, factor_between(best, c, layout.most)});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);
   }
-  ranking.margin = timing ? kTimingMargin : kExactMargin;
-  while (ranking.tied < all.size() && !differ(ranking.places[ranking.tied].factor, ranking.margin))
-    ++ranking.tied;
+  for (ranking.tied = 1; ranking.tied < all.size(); ++ranking.tied) {
+    const Summary& factor = ranking.places[ranking.tied].factor;
+    const Relation behind = relation(factor, ranking.timed);
+    if (behind == Relation::kMore) break;
+    ranking.undecided = ranking.undecided || behind != Relation::kTied;
+    ranking.too_few = ranking.too_few || (ranking.timed && factor.count < kFewestSamples);
+  }
   return ranking;
 }
 

@@ -14,33 +14,30 @@
 
 namespace terrabench {
 
-// A method is tied with the best unless they differ() (statistics.h): times and rates by kTimingMargin, all
-// else, such as bytes, triangles and errors, by this. A smaller lead is exact, but no reason to choose a
-// method: stacks take 0.2 % fewer bytes than the implicit surface that is built on them.
-inline constexpr double kExactMargin = 1.01;
-// Both margins, as a sentence for those who read who is tied.
+// relation() (statistics.h) in sentences, for those who read who led and who is tied.
 std::string tie_rule();
-std::string short_factor(const Summary&);  // "1.78 ×"
 
 // One layout, filled: the entries that take part, from best to worst.
 struct Ranking {
   struct Place {
     std::string label;
-    double value;    // median, in the layout's unit
-    Summary factor;  // how many times worse than the best, with its 95 % interval; 1 for the best
+    double value;  // median, in the layout's unit
+    // How many times worse than the best, with its 95 % interval, in three digits; 1 for the best.
+    Summary factor;
   };
   const RankingLayout* layout = nullptr;
   std::vector<Place> places;
-  double margin = kExactMargin;       // below it, a factor is a tie
-  std::size_t tied = 1;               // places that belong to the best
-  bool too_few = false;               // a time with fewer than kFewestSamples: no interval, no winner
-  std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
+  bool timed = false;
+  std::size_t tied = 1;      // places that are not behind the best: the best, those tied with it, and those
+                             // of which this is undecided
+  bool undecided = false;    // whether there are any of the last
+  bool too_few = false;      // and since a time was taken fewer than kFewestSamples times
+  std::string not_compared;  // the reason, as words after "as"; empty: they are comparable
   std::vector<std::string> left_out;  // labels of entries in another unit, or that lack what is needed
   std::vector<std::string> runs;
 
-  // Whether there is a best method, or several tied: not if times have too few samples or if the values
-  // cannot be compared.
-  bool decided() const { return !places.empty() && not_compared.empty() && !too_few; }
+  // Whether there is a best method, or several tied.
+  bool decided() const { return !places.empty() && not_compared.empty() && !undecided; }
   // "heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
   std::string result() const;
   // The factor alone: "1.3 [1.2, 1.4] ×", "tied, within 1.1 [1.05, 1.2] ×", "tied", "alone"; of one that is

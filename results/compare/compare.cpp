@@ -24,12 +24,9 @@ Change change_of(const Metric& before, const Metric& after, const Summary& ratio
   if (!timed(before) && !timed(after))
     return before.samples == after.samples ? Change::kSame : Change::kDiffers;
   if (!one_machine) return Change::kElsewhere;
-  const bool has_interval = std::min(before.samples.size(), after.samples.size()) >= kFewestSamples &&
-                            std::isfinite(ratio.median) && !std::isnan(ratio.low);
-  if (!has_interval) return Change::kUnresolved;
-  if (differ(ratio)) return ratio.median > 1 ? Change::kRose : Change::kFell;
-  constexpr double kWide = 4;  // an interval around 1 that spans more does not say whether the time changed
-  return ratio.high > kWide * ratio.low ? Change::kUnresolved : Change::kSame;
+  if (!std::isfinite(ratio.median)) return Change::kUnresolved;
+  constexpr Change kChanges[] = {Change::kRose, Change::kFell, Change::kSame, Change::kUnresolved};
+  return kChanges[static_cast<std::size_t>(relation(ratio, true))];
 }
 
 bool same_ground(const Record& a, const Record& b) {
@@ -43,7 +40,8 @@ MetricChange described(const Record& record, const Metric& metric, Change change
 
 void add_only(const Record& record, const Metric& metric, Change side, Comparison& out) {
   MetricChange& change = out.metrics.emplace_back(described(record, metric, side));
-  (side == Change::kOnlyBefore ? change.before : change.after) = summarise(metric.samples).median;
+  change.timed = timed(metric);
+  (side == Change::kOnlyBefore ? change.before : change.after) = median(metric.samples);
 }
 
 // A case that both folders hold, with the runs that measured it.
@@ -57,12 +55,12 @@ struct Pair {
 };
 
 void add_both(const Pair& pair, const Metric& before, const Metric& after, Comparison& out) {
-  const Summary ratio = summarise_ratio(after.samples, before.samples);
+  const Summary ratio = summarise_ratio(after, before);
   const bool one_machine = pair.one_machine();
   MetricChange& change =
       out.metrics.emplace_back(described(pair.before, before, change_of(before, after, ratio, one_machine)));
-  change.before = summarise(before.samples).median;
-  change.after = summarise(after.samples).median;
+  change.before = median(before.samples);
+  change.after = median(after.samples);
   change.ratio = ratio;
   change.timed = timed(before) || timed(after);
   change.same_ground = same_ground(pair.before, pair.after);

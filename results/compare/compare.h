@@ -15,13 +15,11 @@
 namespace terrabench {
 
 enum class Change {
-  kSame,        // exact and equal, or a timing that does not differ() (statistics.h)
-  kRose,        // a timing that does, upwards
-  kFell,        // or downwards
+  kSame,        // exact and equal, or a timing for which relation() (statistics.h) is a tie
+  kRose,        // a timing that is larger by relation()
+  kFell,        // or smaller
   kDiffers,     // exact and not equal
-  kUnresolved,  // a timing with fewer than three samples in a folder, too few for an interval, or whose
-                // interval spans more than a factor of 4 around 1, as of samples taken on grounds of
-                // different sizes
+  kUnresolved,  // a timing for which relation() is undecided, or without a finite ratio
   kElsewhere,   // a timing of another kind of machine, which says nothing about the code
   kOnlyBefore,
   kOnlyAfter,

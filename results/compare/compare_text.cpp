@@ -42,14 +42,14 @@ std::string line_of(const MetricChange& m, bool colour) {
                          plain = paint.empty() ? "" : "\x1b[0m";
   std::string text =
       fmt::format("  {} {:<26} {}{:<11}{}", marked(m) ? '*' : ' ', m.metric, paint, name(m.change), plain);
+  const auto show = [&](double value) { return format_quantity(printed(value, m.timed), m.unit); };
   if (m.one_sided()) {
-    return text + fmt::format("  {}\n",
-                              format_quantity(m.change == Change::kOnlyBefore ? m.before : m.after, m.unit));
+    return text + fmt::format("  {}\n", show(m.change == Change::kOnlyBefore ? m.before : m.after));
   }
-  text += fmt::format("  {} → {}", format_quantity(m.before, m.unit), format_quantity(m.after, m.unit));
+  text += fmt::format("  {} → {}", show(m.before), show(m.after));
   const bool has_interval = m.ratio.low < m.ratio.high;  // not NaN
   if (m.before != 0 && m.timed && has_interval && m.change != Change::kElsewhere) {
-    text += fmt::format("  × {:.3f} [{:.3f}, {:.3f}]", m.ratio.median, m.ratio.low, m.ratio.high);
+    text += fmt::format("  × {:.3g} [{:.3g}, {:.3g}]", m.ratio.median, m.ratio.low, m.ratio.high);
   } else if (m.before != 0 && m.before != m.after) {
     text += fmt::format("  × {:.4f}", m.ratio.median);
   }
@@ -116,13 +116,14 @@ std::string tally_of(const Comparison& comparison) {
 std::string compare_text(const Comparison& comparison, bool colour, bool all) {
   std::string text = tally_of(comparison);
   if (std::isfinite(comparison.median_ratio)) {
-    text += fmt::format("times: median ratio × {:.3f}; a change below × {} counts as none\n",
+    text += fmt::format("times: median ratio × {:.3g}; a change below × {} counts as none\n",
                         comparison.median_ratio, kTimingMargin);
   }
   if (comparison.count(Change::kUnresolved) > 0) {
-    text +=
-        "unresolved: times with fewer than three samples, an interval that spans more than a factor of 4, or "
-        "a ratio without a finite value\n";
+    text += fmt::format(
+        "unresolved: times with fewer than {} samples, with an interval that shows neither a change by that "
+        "factor nor a smaller one, or with a ratio without a finite value\n",
+        kFewestSamples);
   }
   if (comparison.count(Change::kElsewhere) > 0) {
     text += "elsewhere: times of different kinds of machine, which are not compared\n";

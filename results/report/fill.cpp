@@ -37,17 +37,22 @@ Cell absent_cell(const Record& record, std::string_view metric) {
   return why ? Cell{std::string(why->word)} : kNothing;
 }
 
-Cell number_cell(double number) { return {format_number(number), format_exact(number)}; }
+// `timed`: the number varies from run to run.
+Cell number_cell(double number, bool timed = false) {
+  return {format_number(printed(number, timed)), format_exact(number)};
+}
 
 Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& row, const Metric& metric) {
-  const Summary s = summarise(metric.samples);
+  const Summary s = summarise(metric);
+  const bool varies = timed(metric);
   if (column.kind == ColumnKind::kMetric || column.kind == ColumnKind::kInterval) {
-    if (column.kind == ColumnKind::kInterval && s.count == 1) return kNothing;
+    if (column.kind == ColumnKind::kInterval && s.count < kFewestSamples) return kNothing;
     const std::optional<double> known = conversion(metric.unit, column.unit);
     const double factor = known.value_or(1), low = s.low * factor, high = s.high * factor;
     Cell cell = column.kind == ColumnKind::kMetric
-                    ? number_cell(s.median * factor)
-                    : Cell{fmt::format("{} … {}", format_number(low), format_number(high)),
+                    ? number_cell(s.median * factor, varies)
+                    : Cell{fmt::format("{} … {}", format_number(printed(low, varies)),
+                                       format_number(printed(high, varies))),
                            fmt::format("{} … {}", format_exact(low), format_exact(high))};
     if (!known) {
       const std::string unit = metric.unit.empty() ? "without unit" : metric.unit;
@@ -57,7 +62,7 @@ Cell measured_cell(const TableLayout::Column& column, const TableLayout::Row& ro
   }
   const auto reported = row.values.find(column.key);
   if (reported == row.values.end() || !std::holds_alternative<double>(reported->second)) return kNothing;
-  return number_cell(std::get<double>(reported->second) / s.median);
+  return number_cell(std::get<double>(reported->second) / s.median, varies);
 }
 
 // Empty across machines or builds, whose times cannot be compared.
@@ -68,7 +73,7 @@ Cell growth_cell(const std::string& metric, const Record* before, const Record* 
   const Provenance* const earlier = store.run(before->run);
   const Provenance* const later = store.run(record->run);
   if (earlier == nullptr || later == nullptr || !comparable(*earlier, *later)) return kNothing;
-  return number_cell(summarise_ratio(to->samples, from->samples).median);
+  return number_cell(median(to->samples) / median(from->samples), timed(*to));
 }
 
 // Whether a row has something to show without a measurement: a value as printed, or a verdict.
@@ -234,8 +239,8 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
         line.points.insert(line.points.end(), points.begin(), points.end());
         continue;
       }
-      const Summary s = summarise(metric->samples);
-      const double at = across == nullptr ? x : summarise(across->samples).median * *right;
+      const Summary s = summarise(*metric);
+      const double at = across == nullptr ? x : median(across->samples) * *right;
       line.points.push_back({at, s.median * *up, s.low * *up, s.high * *up});
     }
     if (left_out > 0) line.label += fmt::format(", {} in other units left out", left_out);

@@ -35,7 +35,7 @@ Cell cell_of(const Ranking& ranking) {
   } else if (best.size() > 1) {
     cell.style = "tied";
   } else if (ranking.places.size() > 1) {
-    cell.text += " " + short_factor(ranking.places[1].factor);
+    cell.text += fmt::format(" {} ×", format_number(ranking.places[1].factor.median));
   }
   cell.link = ground_page(ranking.layout->ground) + ".*";
   return cell;

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -20,27 +18,15 @@ void finish(std::string& text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
 }
 
-// Three digits, and as many more as tell the factor from 1 and from the margins, which decide on ties: 1.002.
-std::string digits_of(double factor) {
-  constexpr std::array kBounds{1.0, kExactMargin, kTimingMargin};
-  constexpr int kFewest = 3, kMost = 7;
-  for (int digits = kFewest;; ++digits) {
-    std::string text = fmt::format("{:.{}g}", factor, digits);
-    const double shown = std::strtod(text.c_str(), nullptr);
-    const auto same_side = [&](double bound) { return (shown <=> bound) == (factor <=> bound); };
-    if (digits == kMost || std::ranges::all_of(kBounds, same_side)) return text;
-  }
-}
-
-// "1.3 [1.2, 1.4]"; the interval is left out where there is none.
+// "1.3 [1.2, 1.4]"; the interval is left out where there is none. The figures have three digits.
 std::string factor_text(const Summary& factor) {
-  const std::string median = digits_of(factor.median);
-  if (factor.low == factor.high) return median;
-  return fmt::format("{} [{}, {}]", median, digits_of(factor.low), digits_of(factor.high));
+  if (factor.low == factor.high) return format_number(factor.median);
+  return fmt::format("{} [{}, {}]", format_number(factor.median), format_number(factor.low),
+                     format_number(factor.high));
 }
 
-// Of a ranking with two places or more: by which the best is ahead of the next, or within which the best are
-// tied.
+// Of a ranking with two places or more: by which the best is ahead of the next, or that of the last of
+// several that are not behind it.
 const Summary& factor_of(const Ranking& ranking) {
   return ranking.places[ranking.tied > 1 ? ranking.tied - 1 : 1].factor;
 }
@@ -48,46 +34,41 @@ const Summary& factor_of(const Ranking& ranking) {
 }  // namespace
 
 std::string Ranking::result() const {
-  const auto with_value = [&](const Place& p) {
-    const double rounded = std::strtod(fmt::format("{:.4g}", p.value).c_str(), nullptr);
-    return fmt::format("{} ({})", p.label, format_quantity(rounded, layout->unit));
-  };
   if (places.empty()) return "none";
   if (!not_compared.empty()) return "not compared, as " + not_compared;
-  if (tied > 1 && !too_few) {
-    std::vector<std::string> best;
-    for (std::size_t i = 0; i < tied; ++i) best.push_back(with_value(places[i]));
-    std::string text = list_of(best, ", ", " and ") + " are tied";
-    const Summary& last = factor_of(*this);
-    if (last.median != 1) text += fmt::format(", within a factor of {}", factor_text(last));
-    if (last.low > 1) text += fmt::format(", less than the margin of {}", margin);
-    return text;
+  std::vector<std::string> named;  // those that are not behind the best, and at least the first two
+  for (const Place& p : places) {
+    if (named.size() >= std::max<std::size_t>(tied, 2)) break;
+    named.push_back(fmt::format("{} ({})", p.label, format_quantity(printed(p.value, timed), layout->unit)));
   }
-  if (places.size() == 1) return with_value(places[0]) + " alone";
-  const std::string first = with_value(places[0]), second = with_value(places[1]),
-                    factor = factor_text(places[1].factor);
+  if (named.size() == 1) return named[0] + " alone";
+  const std::string factor = factor_text(factor_of(*this)), all = list_of(named, ", ", " and ");
+  if (tied == 1) return fmt::format("{}, ahead of {} by a factor of {}", named[0], named[1], factor);
   if (too_few) {
-    return fmt::format("undecided, as they were measured only once or twice: {}, {}, a factor of {}", first,
-                       second, factor);
+    return fmt::format("undecided, as they were measured fewer than {} times: {}, a factor of {}",
+                       kFewestSamples, all, factor);
   }
-  return fmt::format("{}, ahead of {} by a factor of {}", first, second, factor);
+  if (undecided) return fmt::format("undecided between {}, a factor of {}", all, factor);
+  return all + " are tied" + (factor == "1" ? "" : ", within a factor of " + factor);
 }
 
 std::string Ranking::lead() const {
   if (places.size() == 1) return "alone";
   const Summary& factor = factor_of(*this);
   if (tied == 1) return factor_text(factor) + " ×";
-  return factor.median == 1 ? "tied" : fmt::format("tied, within {} ×", factor_text(factor));
+  const std::string text = factor_text(factor);
+  return text == "1" ? "tied" : fmt::format("tied, within {} ×", text);
 }
-
-std::string short_factor(const Summary& factor) { return digits_of(factor.median) + " ×"; }
 
 std::string tie_rule() {
   return fmt::format(
-      "Methods are called tied if the 95 % interval of that factor contains 1 or if the factor is below a "
-      "margin: {} for times and rates, since two thirds of them change by less between two runs on one "
-      "machine, and {} for all else, since a smaller lead is no reason to choose a method.",
-      kTimingMargin, kExactMargin);
+      "A method led if that factor is at least a margin and its 95 % interval lies above 1; methods are tied "
+      "if the whole interval lies within the margin on both sides of 1; else, and for times taken fewer than "
+      "{} times, it is undecided. The margin is {} for times and rates, since two thirds of them change by "
+      "less between two runs on one machine, and {} for all else, since a smaller lead is no reason to "
+      "choose "
+      "a method. Factors are rounded to three digits first.",
+      kFewestSamples, kTimingMargin, kExactMargin);
 }
 
 Facts findings(std::span<const Ranking> rankings) {
@@ -133,8 +114,9 @@ std::string findings_json(std::span<const Ranking> rankings) {
                     {"needs", layout.needs_text},
                     {"left_out", ranking.left_out},
                     {"places", places},
-                    {"margin", ranking.margin},
+                    {"margin", margin_of(ranking.timed)},
                     {"tied", ranking.places.empty() ? 0 : ranking.tied},
+                    {"undecided", ranking.undecided},
                     {"too_few_samples", ranking.too_few},
                     {"comparable", ranking.not_compared.empty()},
                     {"finding", ranking.clause()},

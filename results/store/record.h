@@ -25,9 +25,19 @@ struct Metric {
   // The value varies from run to run on one machine although is_timing() of its unit is false: a ratio of
   // times, a fit through times, a peak of memory, the hits of a cache.
   bool varies = false;
+  // The samples are of consecutive frames of one path, of which neighbours resemble each other.
+  bool series = false;
 };
 // Whether its samples vary from run to run of one program: by their unit, or because `varies` says so.
 inline bool timed(const Metric& metric) { return metric.varies || is_timing(metric.unit); }
+inline Order order_of(const Metric& metric) { return metric.series ? Order::kSeries : Order::kIndependent; }
+inline Summary summarise(const Metric& metric) { return summarise(metric.samples, order_of(metric)); }
+// Two series are taken to be of the same path. `in_turn`: both metrics are of one record, whose samples were.
+inline Summary summarise_ratio(const Metric& numerator, const Metric& denominator, bool in_turn = false) {
+  return summarise_ratio(numerator.samples, denominator.samples,
+                         numerator.series && denominator.series ? Order::kSeries : Order::kIndependent,
+                         in_turn);
+}
 
 // A picture that a case drew, relative to the results folder.
 struct RecordedFigure {

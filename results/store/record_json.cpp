@@ -184,7 +184,6 @@ Metric metric_from(const Json& json, std::string& warning) {
   Metric metric{fields.name("name"), fields.text("unit"), {}};
   const Json& samples = fields.array("samples");
   require(!samples.empty(), fmt::format("metric '{}' has no samples", metric.name));
-  metric.samples.reserve(samples.size());
   for (const Json& sample : samples) {
     require(sample.is_number(), fmt::format("a sample of '{}' is not a number", metric.name));
     metric.samples.push_back(sample.get<double>());
@@ -192,6 +191,7 @@ Metric metric_from(const Json& json, std::string& warning) {
             fmt::format("a sample of '{}' is an integer of more than 53 bits", metric.name));
   }
   if (fields.has("varies")) metric.varies = fields.flag("varies");
+  if (fields.has("series")) metric.series = fields.flag("series");
   // Of older records: how many of the samples the first of two measurements gave.
   if (fields.has("first_look")) fields.natural("first_look");
   fields.note_unknown(warning);
@@ -342,6 +342,7 @@ std::string to_line(const Record& record) {
     for (const double sample : metric.samples) check_finite(sample, where + metric.name);
     metrics.push_back({{"name", metric.name}, {"unit", metric.unit}, {"samples", metric.samples}});
     if (metric.varies) metrics.back()["varies"] = true;
+    if (metric.series) metrics.back()["series"] = true;
   }
   for (const RecordedFigure& figure : record.figures) {
     Json& entry = figures.emplace_back(Json{{"id", figure.id},

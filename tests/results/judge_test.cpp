@@ -62,6 +62,20 @@ TEST_F(OneClaim, OrderIsStrict) {
   EXPECT_EQ(verdict("{order = [\"e/c/n\", \"e/c/m\"]}"), Verdict::kDiffers);
 }
 
+// As in rankings: what the interval does not show is no order.
+TEST_F(OneClaim, TheOrderOfTimesHoldsBeyondTheMarginAlone) {
+  const auto of = [&](std::vector<double> samples) {
+    metrics_ = {{"m", "s", {1, 1, 1, 1, 1, 1}}, {"n", "s", std::move(samples)}};
+    const Judgement found = judge_one("{order = [\"e/c/m\", \"e/c/n\"]}");
+    return std::string(name(found.verdict)) + ": " + found.measured;
+  };
+  EXPECT_EQ(of({2, 2, 2, 2, 2, 2}), "reproduced: m 1 s < n 2 s");
+  EXPECT_EQ(of({1.2, 1.2, 1.2, 1.2, 1.2, 1.2}), "differs: m 1 s < n 1.2 s (a tie: × 1.2 [1.2, 1.2])");
+  EXPECT_THAT(of({1, 1, 2, 2, 3, 3}), HasSubstr("differs: m 1 s < n 2 s (undecided: × 2 ["));
+  EXPECT_EQ(of({2, 2, 2, 2, 2}), "differs: m 1 s < n 2 s (sampled fewer than 6 times)");
+  EXPECT_EQ(of({0.5, 0.5, 0.5, 0.5, 0.5, 0.5}), "differs: m 1 s ≥ n 0.5 s (100 % above)");
+}
+
 TEST_F(OneClaim, ShapeClaimsSayShape) {
   metrics_ = {{"m", "s", {1}}, {"n", "s", {8}}};
   EXPECT_EQ(verdict("{growth = [\"e/c/m\", \"e/c/n\"], range = [6.5, 9.5]}", "S"), Verdict::kShape);

@@ -39,7 +39,10 @@ double mutated(Mutant mutant, double value, double other) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Whether the condition holds when these mutants act on its metrics. Medians decide, so one sample is enough.
+void fill(Samples& samples, double value) { std::ranges::fill(samples, value); }
+
+// Whether the condition holds when these mutants act on its metrics. All samples of a metric are its median:
+// as many as there are, up to those that decide on times.
 class Trial {
  public:
   Trial(const Condition& condition, const Store& store) : store_(store) { one_.conditions = {condition}; }
@@ -47,7 +50,7 @@ class Trial {
   bool holds_for_all(Mutant mutant) const {
     return holds([&](std::span<Samples> metrics) {
       const double first = metrics[0][0];
-      for (Samples& samples : metrics) samples[0] = mutated(mutant, samples[0], first);
+      for (Samples& samples : metrics) fill(samples, mutated(mutant, samples[0], first));
     });
   }
   // Whether some mutant of this metric alone breaks the condition.
@@ -56,7 +59,7 @@ class Trial {
       if (mutant == Mutant::kNan) return false;  // breaks every comparison
       return !holds([&](std::span<Samples> metrics) {
         const double other = metrics[(metric + 1) % metrics.size()][0];
-        metrics[metric][0] = mutated(mutant, metrics[metric][0], other);
+        fill(metrics[metric], mutated(mutant, metrics[metric][0], other));
       });
     });
   }
@@ -64,7 +67,10 @@ class Trial {
  private:
   bool holds(const Mutate& change) const {
     const auto mutate = [&](std::span<Samples> metrics) {
-      for (Samples& samples : metrics) samples = {median(samples)};
+      for (Samples& samples : metrics) {
+        const double middle = median(samples);
+        samples.assign(std::min(samples.size(), kFewestSamples), middle);
+      }
       if (!metrics.empty()) change(metrics);
     };
     return gather_evidence(one_, store_, store_.profile(), mutate).results[0].outcome == Outcome::kHolds;

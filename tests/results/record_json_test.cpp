@@ -79,15 +79,19 @@ TEST(RecordLine, KeepsTheLargestIntegers) {
   }
 }
 
-TEST(RecordLine, KeepsWhetherAMetricVaries) {
+TEST(RecordLine, KeepsWhetherAMetricVariesAndWhetherItIsASeries) {
   Record record = sample();
   record.metrics.push_back({"ratio", "", {2}, true});
+  record.metrics.push_back({"update", "s", {2, 3}, false, true});
   const std::string line = to_line(record);
   const auto read = std::get<Record>(parse_line(line, "there:3").content);
   EXPECT_FALSE(read.metrics[0].varies);
   EXPECT_TRUE(read.metrics[1].varies);
   EXPECT_EQ(to_line(read), line);
+  EXPECT_FALSE(read.metrics[1].series);
+  EXPECT_TRUE(read.metrics[2].series);
   EXPECT_EQ(to_line(sample()).find("varies"), std::string::npos);
+  EXPECT_EQ(to_line(sample()).find("series"), std::string::npos);
 }
 
 // Older records say how many samples the first of two measurements gave.

@@ -31,7 +31,7 @@ Record full_record() {
   add(record, "time", "s", {0.25, 1e-300});
   record.figures = {{"hybrid.F3", "figures/a.png", "A caption.", checksum("a"),
                      FigureLayout{{{1, 2, 3, 4}, {5, 2, 3, 4}}, {"a word"}, {1, 2}}}};
-  record.metrics[0].varies = true;
+  record.metrics[0].varies = record.metrics[0].series = true;
   record.undefined = {{"ratio", "the ground is flat"}};
   return record;
 }
@@ -96,7 +96,7 @@ TEST(Schema, ThePageListsTheFieldsThatAreWritten) {
   least.overrides.clear();
   least.terrain_notes.clear();
   least.undefined.clear();
-  least.metrics[0].varies = false;
+  least.metrics[0].varies = least.metrics[0].series = false;
   least.figures[0].layout.repeats.clear();
   Provenance run = full_run();
   run.timing_warnings.clear();

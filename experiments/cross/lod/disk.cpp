@@ -177,7 +177,7 @@ class Walk {
     const std::uint64_t tiles = pyramid_->tiles_read();
     const Stopwatch watch;
     const Frame& frame = clipmap_->update(at);
-    recorder.add(metric, "s", watch.seconds());
+    recorder.add_frame(metric, "s", watch.seconds());
     uploaded_ += frame.stats.bytes_uploaded;
     strips_ += expected_.follow({at.eye.x / static_cast<double>(pyramid_->cell_x()),
                                  at.eye.z / static_cast<double>(pyramid_->cell_z())},

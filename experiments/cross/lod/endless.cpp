@@ -176,9 +176,9 @@ class Flight {
     const View view = from(at(k));
     const Stopwatch watch;
     const Frame& frame = clipmap_->update(view);
-    recorder_.add("update_time", "s", watch.seconds());
-    recorder_.add("frame_bytes", "B", frame.stats.bytes_uploaded);
-    recorder_.add("triangles", "", frame.stats.triangles);
+    recorder_.add_frame("update_time", "s", watch.seconds());
+    recorder_.add_frame("frame_bytes", "B", frame.stats.bytes_uploaded);
+    recorder_.add_frame("triangles", "", frame.stats.triangles);
     uploaded_ += frame.stats.bytes_uploaded;
     strips_ += expected_.follow(at(k), finest_, clipmap_->levels());
   }

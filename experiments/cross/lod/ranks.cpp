@@ -67,7 +67,7 @@ void measure_one(Flight& flight, const ConfiguredMethod& method, const Equalised
   recorder.add(prefix + "error_rms", "px", errors.rms());
   recorder.add(prefix + "triangles", "", costs.triangles.back());
   recorder.add(prefix + "uploaded", "B", cost.uploaded);
-  for (const double t : cost.times) recorder.add(prefix + "update_time", "s", t);
+  for (const double t : cost.times) recorder.add_frame(prefix + "update_time", "s", t);
 }
 
 std::vector<Case> cases(const RunOptions& options) {

@@ -86,7 +86,7 @@ void collide(const DrawnSurface& surface, const Heightfield& ground, const std::
   const double time = processor_seconds([&] {
     for (std::size_t k = 0; k < points.size(); ++k) heights[k] = surface.height(points[k].x, points[k].z);
   });
-  recorder.add("queries", "1/s", static_cast<double>(points.size()) / time);
+  recorder.add_frame("queries", "1/s", static_cast<double>(points.size()) / time);
   for (std::size_t k = 0; k < points.size(); ++k)
     collisions.add(static_cast<double>(heights[k]), height_on_cells(ground, points[k].x, points[k].z));
 }
@@ -118,8 +118,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     error.add(SurfaceRaster(frame, ground.width, ground.depth), ground, flight.seen[k]);
     const Stopwatch watch;
     const DrawnSurface surface(frame, ground.width, ground.depth);
-    recorder.add("index_time", "s", watch.seconds());
-    recorder.add("index_bytes", "B", surface.bytes());
+    recorder.add_frame("index_time", "s", watch.seconds());
+    recorder.add_frame("index_bytes", "B", surface.bytes());
     for (const auto& [reach, collisions] :
          {std::pair{std::numeric_limits<double>::infinity(), &in_view}, std::pair{kNear, &near}}) {
       collide(surface, ground, points_on(visible_cells(flight.seen[k], reach), ground.width, random),

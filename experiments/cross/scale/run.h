@@ -62,13 +62,13 @@ class Run {
   // Processor seconds of each repetition of the work on one thread. Before each, outside the timed part,
   // clear() frees what the last one made, and the caches are emptied: otherwise they would hold the data of
   // small sizes, but not of large ones. The time therefore includes cache misses on the code, too, which
-  // matters most at the smallest sizes. There are six repetitions, or as many as take 2 s together, since the
-  // largest sizes take minutes; before them one that is not counted, if it takes under 0.2 s.
+  // matters most at the smallest sizes. There are six repetitions, or one if it takes more than a second,
+  // since the largest sizes take minutes; before them one that is not counted, if it takes under 0.2 s.
   template <class Clear, class Work>
   void add_samples(Cost& cost, double columns, const Clear& clear, const Work& work) const {
-    constexpr double kShort = 0.2, kMost = 2;  // seconds
+    constexpr double kShort = 0.2, kLong = 1;  // seconds
     bool first = true;
-    for (Repetitions repetitions(kMost); repetitions.more();) {
+    for (Repetitions repetitions(kLong); repetitions.more();) {
       clear();
       caches_.evict();
       const double taken = processor_seconds(work);
