@@ -65,7 +65,7 @@ TEST_F(LayoutTest, APairedSeriesHasAPointForEachSizeOfItsCase) {
   EXPECT_EQ(points[0].y, 1500);
   EXPECT_EQ(points[1].x, 20);
   EXPECT_EQ(points[1].y, 5000);
-  EXPECT_EQ(points[1].low, 4000);
+  EXPECT_EQ(points[1].low, 5000) << "three samples have no interval";
   EXPECT_EQ(filled.plot.series.at(0).label, "l, slope 1.74");
 }
 
