@@ -40,10 +40,10 @@ const std::array kSpecs{
 
 std::vector<Case> cases(const RunOptions&) { return cases_by("mesh", kSpecs); }
 
-// After so many steps with random displacements.
-FaceMesh rough_mesh(std::string_view name, std::int64_t steps, double amplitude, std::uint64_t seed) {
+// After two steps with random displacements.
+FaceMesh rough_mesh(std::string_view name, double amplitude, std::uint64_t seed) {
   const FaceMesh base = name == "plane" ? growing::plane({4, 4}, 4, 4).mesh : shape(name);
-  const std::vector rules(static_cast<std::size_t>(steps), fractal_rule(static_cast<float>(amplitude), seed));
+  const std::vector rules(2, fractal_rule(static_cast<float>(amplitude), seed));
   return subdivide(base, rules, kCornersStay);
 }
 
@@ -94,7 +94,7 @@ void record_step(Recorder& recorder, int step, int last, const Distances& now, c
 
 void measure(const Case& test_case, const RunOptions& options, Recorder& recorder, Progress&) {
   const std::string& name = test_case.parameters.text("mesh");
-  const FaceMesh start = rough_mesh(name, 2, test_case.parameters.number("amplitude"), options.seed);
+  const FaceMesh start = rough_mesh(name, test_case.parameters.number("amplitude"), options.seed);
   const int steps = test_case.integer("steps");
   const Refinement refinement(start, steps, kCornersStay);
   std::vector<std::size_t> followed;
@@ -172,7 +172,7 @@ void measure_points(const Case& test_case, const RunOptions& options, Recorder& 
       name == "chair"
           ? growing::expand(growing::parse_model(growing::model_text(name), name), {.leave_out = {"finish"}})
                 .mesh
-          : rough_mesh(name, 2, test_case.parameters.number("amplitude"), options.seed));
+          : rough_mesh(name, test_case.parameters.number("amplitude"), options.seed));
   const Topology& mesh = levels.topology(0);
   const auto asked = static_cast<std::uint32_t>(test_case.integer("faces"));
   const std::uint32_t stride = std::max(1U, mesh.faces() / asked);

@@ -9,8 +9,8 @@
 
 namespace terrabench::mrbsp {
 
-// Figure 1 (lod_figure.cpp): the triangles that level of detail of size 1 draws without the extra step against
-// holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
+// Figure 1 (lod_figure.cpp): the triangles that level of detail of size 1 draws without the extra step
+// against holes and with it, with thresholds at vertices, and the triangle that shows the largest hole.
 struct LodPanel {
   std::size_t hole_pixels = 0;
   std::size_t bare_pixels = 0;  // by the meter of all methods (bare_pixels.h), which counts hidden holes too
