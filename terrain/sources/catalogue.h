@@ -1,8 +1,11 @@
 // The terrains that have a name: real ones read in place from packages, and generated ones. See
-// terrain/source.h for terrains() and open_terrain(); these are for tests and tools.
+// terrain/source.h for terrains() and open_terrain(); these are for tests, tools and ground of other sizes.
 #pragma once
 
 #include <string>
+#include <string_view>
+
+#include "terrain/source.h"
 
 namespace terrabench {
 
@@ -10,5 +13,9 @@ namespace terrabench {
 // them. Throws environment_error that names the package when the file is not there.
 std::string jacksboro_vrt();
 std::string topobathy_vrt();
+
+// mirrored_mosaic() of the terrain maine, size × size samples.
+inline constexpr std::string_view kMaineMosaic = "maine-mosaic";
+TerrainSource open_maine_mosaic(int size);
 
 }  // namespace terrabench
