@@ -206,6 +206,7 @@ RankingLayout parse_ranking(const TomlValue& node) {
   layout.where = entry.text("where");
   layout.sentence = entry.text_or("sentence", "");
   if (!layout.sentence.empty()) layout.brief = entry.text("brief");
+  layout.counted = entry.text_or("counted", layout.counted);
   layout.experiment = entry.text("experiment");
   layout.metric = entry.text("metric");
   layout.unit = entry.text_or("unit", "");

@@ -83,9 +83,10 @@ struct RankingLayout {
   // `brief` is the task's wording in it: "for the fewest bytes in memory". Both are empty if no sentence
   // mentions the task.
   std::string sentence, brief;
-  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
-  std::string unit;                // that values are shown in
-  bool most = false;               // the best has the most, otherwise the least
+  std::string counted = "grounds";  // what the sentence counts of one outcome: "on 4 of 7 grounds"
+  std::string experiment, metric;   // `metric` and `needs` are read for the entry as a table's columns are
+  std::string unit;                 // that values are shown in
+  bool most = false;                // the best has the most, otherwise the least
   // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
   // says so: "of types that keep four fifths of the air under roofs".
   std::string needs, needs_text;

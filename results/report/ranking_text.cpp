@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -75,9 +76,9 @@ void add_to(std::vector<SameOutcome>& groups, const Ranking& ranking) {
   if (factor.median != 1) at->factors.push_back(factor);
 }
 
-std::string text_of(const SameOutcome& group) {
-  const std::string text = list_of(group.where, ", ", " and ") + ", " + group.outcome;
-  if (group.factors.empty()) return text;
+// "1.2 to 1.3 ×", "within 1.1 ×"; empty if all factors are 1.
+std::string factors_of(const SameOutcome& group) {
+  if (group.factors.empty()) return "";
   const auto [least, most] = std::ranges::minmax_element(group.factors, {}, &Summary::median);
   std::string factors = fmt::format("{} to {}", factor_text(*least), factor_text(*most));
   if (digits_of(least->median) == digits_of(most->median)) {
@@ -88,7 +89,31 @@ std::string text_of(const SameOutcome& group) {
     }
     factors = factor_text(all);
   }
-  return text + fmt::format(" ({}{} ×)", group.tied ? "within " : "", factors);
+  return fmt::format("{}{} ×", group.tied ? "within " : "", factors);
+}
+
+// The grounds' names, without the preposition that most of them have: "a hill, a fractal".
+std::string names_of(const SameOutcome& group) {
+  std::vector<std::string> names;
+  for (const std::string& where : group.where)
+    names.push_back(where.substr(where.starts_with("on ") ? 3 : 0));
+  return list_of(names, ", ", ", ");
+}
+
+// Of a task on `all` grounds: "drills led on 4 of 7 grounds (a hill, …; 1.2 to 1.3 ×)". Grounds that all
+// agree are not named, and `counted` says only of the `first` group what is counted.
+std::string text_of(const SameOutcome& group, std::size_t all, const std::string& counted, bool first) {
+  std::string on = group.where[0], names;
+  if (all > 1 && group.where.size() == all) {
+    on = all == 2 ? "on both " + counted : fmt::format("on all {} {}", all, counted);
+  } else if (all > 1) {
+    on = fmt::format("on {}", group.where.size());
+    if (first) on += fmt::format(" of {} {}", all, counted);
+    names = names_of(group);
+  }
+  const std::string factors = factors_of(group);
+  const std::string inside = names + (names.empty() || factors.empty() ? "" : "; ") + factors;
+  return fmt::format("{} {}{}", group.outcome, on, inside.empty() ? "" : " (" + inside + ")");
 }
 
 }  // namespace
@@ -139,10 +164,14 @@ Facts in_short(std::span<const Ranking> rankings) {
   for (auto first = rankings.begin(); first != rankings.end();) {
     const RankingLayout& layout = *first->layout;
     std::vector<SameOutcome> groups;
-    for (; first != rankings.end() && first->layout->task == layout.task; ++first) add_to(groups, *first);
+    std::size_t all = 0;
+    for (; first != rankings.end() && first->layout->task == layout.task; ++first, ++all)
+      add_to(groups, *first);
     if (layout.sentence.empty()) continue;
+    std::ranges::stable_sort(groups, std::greater{}, [](const auto& group) { return group.where.size(); });
     std::vector<std::string> texts;
-    for (const SameOutcome& group : groups) texts.push_back(text_of(group));
+    for (const SameOutcome& group : groups)
+      texts.push_back(text_of(group, all, layout.counted, texts.empty()));
     const std::string clause = fmt::format("{}: {}", layout.brief, fmt::join(texts, "; "));
     const auto line =
         std::ranges::find(facts.lines, layout.sentence, &std::pair<std::string, std::string>::first);

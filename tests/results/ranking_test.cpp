@@ -21,7 +21,7 @@ using testing::Not;
 
 constexpr std::string_view kLayout = R"(
 [sets]
-ground = [{name = "hill", where = "on a hill"}, {name = "sea", where = "at sea"}]
+ground = [{name = "hill", where = "on a hill"}, {name = "sea", where = "at sea"}, {name = "isle", where = "on an isle"}]
 type = [{name = "a", label = "drills"}, {name = "b", label = "voxels"}, {name = "c", label = "stacks"}]
 
 [[ranking]]
@@ -175,7 +175,7 @@ entries = [
   EXPECT_EQ(ranking->left_out, std::vector<std::string>{"C"});
 }
 
-TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
+TEST_F(RankingTest, InShortGroundsWithTheSameOutcomeAreCounted) {
   const auto line = [&] {
     const auto [sentence, text] = in_short(rank(layouts_, store_, "quick")).lines.at(0);
     EXPECT_EQ(sentence, "Speed");
@@ -185,20 +185,45 @@ TEST_F(RankingTest, InShortGroundsWithTheSameBestStandTogether) {
   measure("hill/b", {0.030, 0.030, 0.030});
   measure("sea/a", {0.010, 0.010, 0.010});
   measure("sea/b", {0.040, 0.040, 0.040});
-  EXPECT_EQ(line(), "For the shortest time: on a hill and at sea, drills led (3 to 4 ×).");
+  EXPECT_EQ(line(), "For the shortest time: drills led on both grounds (3 to 4 ×).");
   measure("sea/b", {0.005, 0.005, 0.005});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels led (2 ×).");
+  EXPECT_EQ(
+      line(),
+      "For the shortest time: drills led on 1 of 2 grounds (a hill; 3 ×); voxels led on 1 (at sea; 2 ×).");
   measure("sea/b", {0.010, 0.010, 0.010});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, drills and voxels tied.");
+  EXPECT_EQ(line(),
+            "For the shortest time: drills led on 1 of 2 grounds (a hill; 3 ×); drills and voxels tied on 1 "
+            "(at sea).");
   measure("sea/b", {0.010});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, nothing was decided.");
+  EXPECT_EQ(line(),
+            "For the shortest time: drills led on 1 of 2 grounds (a hill; 3 ×); nothing was decided on 1 (at "
+            "sea).");
   measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.1);  // of those that lose little there is one at sea
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, voxels alone took part.");
+  EXPECT_EQ(line(),
+            "For the shortest time: drills led on 1 of 2 grounds (a hill; 3 ×); voxels alone took part on 1 "
+            "(at sea).");
   measure("sea/b", {0.010, 0.010, 0.010}, 1000, 0.9);
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (3 ×); at sea, none took part.");
+  EXPECT_EQ(
+      line(),
+      "For the shortest time: drills led on 1 of 2 grounds (a hill; 3 ×); none took part on 1 (at sea).");
   measure("hill/b", {0.010, 0.010, 0.010}, 1012);
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(1).second,
-            "For the most queries: on a hill, voxels led (1.012 ×).");
+            "For the most queries: voxels led on a hill (1.012 ×).");
+}
+
+TEST_F(RankingTest, InShortEveryOutcomeSaysOnHowManyGrounds) {
+  const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(0).second; };
+  for (const char* const ground : {"hill/", "sea/", "isle/"}) {
+    measure(std::string(ground) + "a", {0.010, 0.010, 0.010});
+    measure(std::string(ground) + "b", {0.030, 0.030, 0.030});
+  }
+  EXPECT_EQ(line(), "For the shortest time: drills led on all 3 grounds (3 ×).");
+  measure("hill/b", {0.005, 0.005, 0.005});
+  EXPECT_EQ(line(),
+            "For the shortest time: drills led on 2 of 3 grounds (at sea, an isle; 3 ×); voxels led on 1 (a "
+            "hill; 2 ×).");
+  layouts_[0].counted = "grounds and sizes";
+  EXPECT_THAT(line(), HasSubstr("drills led on 2 of 3 grounds and sizes (at sea"));
 }
 
 TEST_F(RankingTest, InShortEveryFactorThatVariesHasItsInterval) {
@@ -207,12 +232,11 @@ TEST_F(RankingTest, InShortEveryFactorThatVariesHasItsInterval) {
   measure("hill/b", {0.030, 0.030, 0.033});
   measure("sea/a", {0.010, 0.010, 0.011});
   measure("sea/b", {0.040, 0.040, 0.044});
-  EXPECT_EQ(line(),
-            "For the shortest time: on a hill and at sea, drills led (3 [2.73, 3.3] to 4 [3.64, 4.4] ×).");
+  EXPECT_EQ(line(), "For the shortest time: drills led on both grounds (3 [2.73, 3.3] to 4 [3.64, 4.4] ×).");
   measure("hill/b", {0.0120, 0.0120, 0.0121});
   measure("sea/b", {0.0110, 0.0110, 0.0112});
   EXPECT_EQ(line(),
-            "For the shortest time: on a hill and at sea, drills and voxels tied (within 1.1 [1, 1.12] to "
+            "For the shortest time: drills and voxels tied on both grounds (within 1.1 [1, 1.12] to "
             "1.2 [1.09, 1.21] ×).");
 }
 
@@ -221,10 +245,9 @@ TEST_F(RankingTest, FactorsHaveTheDigitsThatTellThemFromOneAndFromTheMargins) {
   const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(0).second; };
   measure("hill/a", {0.010, 0.010, 0.010});
   measure("hill/b", {0.01003, 0.013, 0.015});
-  EXPECT_EQ(line(), "For the shortest time: on a hill, drills led (1.3 [1.003, 1.5] ×).");
+  EXPECT_EQ(line(), "For the shortest time: drills led on a hill (1.3 [1.003, 1.5] ×).");
   measure("hill/b", {0.01003, 0.01249, 0.015});
-  EXPECT_EQ(line(),
-            "For the shortest time: on a hill, drills and voxels tied (within 1.249 [1.003, 1.5] ×).");
+  EXPECT_EQ(line(), "For the shortest time: drills and voxels tied on a hill (within 1.249 [1.003, 1.5] ×).");
 }
 
 // As where two grounds have the same median by chance.
@@ -234,7 +257,7 @@ TEST_F(RankingTest, InShortEqualFactorsHaveOneInterval) {
   measure("sea/a", {0.010, 0.010, 0.010});
   measure("sea/b", {0.028, 0.030, 0.030});
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.at(0).second,
-            "For the shortest time: on a hill and at sea, drills led (3 [2.8, 3.1] ×).");
+            "For the shortest time: drills led on both grounds (3 [2.8, 3.1] ×).");
 }
 
 // The margins decide on times, rates and all else, each with its reason.
@@ -247,29 +270,28 @@ TEST_F(RankingTest, AShortLeadOfExactFiguresIsATie) {
   const auto line = [&] { return in_short(rank(layouts_, store_, "quick")).lines.at(1).second; };
   measure("hill/a", {0.010, 0.010, 0.010}, 1000);
   measure("hill/b", {0.010, 0.010, 0.010}, 1009);
-  EXPECT_EQ(line(), "For the most queries: on a hill, drills and voxels tied (within 1.009 ×).");
+  EXPECT_EQ(line(), "For the most queries: drills and voxels tied on a hill (within 1.009 ×).");
   EXPECT_EQ(sentence(1),
             "Most queries: On a hill: voxels (1.009 kB) and drills (1 kB) are tied, within a factor of "
             "1.009, less than the margin of 1.01.");
   measure("hill/b", {0.010, 0.010, 0.010}, 1010);
-  EXPECT_EQ(line(), "For the most queries: on a hill, voxels led (1.01 ×).");
+  EXPECT_EQ(line(), "For the most queries: voxels led on a hill (1.01 ×).");
 }
 
 TEST_F(RankingTest, InShortTasksOfOneSentenceStandTogether) {
   measure("hill/a", {0.010, 0.010, 0.010});
   measure("hill/b", {0.030, 0.030, 0.030});
   EXPECT_EQ(in_short(rank(layouts_, store_, "quick")).lines.size(), 2U);
-  layouts_[2].sentence = layouts_[0].sentence;
+  layouts_[3].sentence = layouts_[0].sentence;
   const Facts together = in_short(rank(layouts_, store_, "quick"));
   ASSERT_EQ(together.lines.size(), 1U);
   EXPECT_EQ(together.lines[0].second,
-            "For the shortest time: on a hill, drills led (3 ×); for the most queries: on a hill, drills and "
-            "voxels "
-            "tied.");
-  layouts_[2].sentence = "";
+            "For the shortest time: drills led on a hill (3 ×); for the most queries: drills and voxels tied "
+            "on a hill.");
+  layouts_[3].sentence = "";
   const Facts one = in_short(rank(layouts_, store_, "quick"));
   ASSERT_EQ(one.lines.size(), 1U);
-  EXPECT_EQ(one.lines[0].second, "For the shortest time: on a hill, drills led (3 ×).");
+  EXPECT_EQ(one.lines[0].second, "For the shortest time: drills led on a hill (3 ×).");
 }
 
 TEST_F(RankingTest, WithinTheIntervalItIsATie) {
