@@ -94,19 +94,19 @@ TerrainSource from_drawing(std::string_view name) {
   return source;
 }
 
-TerrainSource open_maine() { return from_dem("maine", embedded_dem("maine")); }
+TerrainSource open_helens() { return from_dem("helens", embedded_dem("helens")); }
 
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("jacksboro", jacksboro_vrt()); }},
     {"helens", "Mount St. Helens after its eruption of 1980, 317×460 samples of 30 m", "USGS, terrain/dems",
-     [](std::uint64_t) { return from_dem("helens", embedded_dem("helens")); }},
+     [](std::uint64_t) { return open_helens(); }},
+    {kHelensMosaic,
+     "helens, repeated with every second tile mirrored: 4097×4097 samples, no measured ground of that size",
+     "USGS, terrain/dems", [](std::uint64_t) { return open_helens_mosaic(4097); }},
     {"maine", "low hills, lakes and coast of Maine, 1201×1201 samples of 3″", "SRTM, terrain/dems",
-     [](std::uint64_t) { return open_maine(); }},
-    {kMaineMosaic,
-     "maine, repeated with every second tile mirrored: 4097×4097 samples, no measured ground of that size",
-     "SRTM, terrain/dems", [](std::uint64_t) { return open_maine_mosaic(4097); }},
+     [](std::uint64_t) { return from_dem("maine", embedded_dem("maine")); }},
     {"topobathy", "sea floor and coast off Vancouver Island, 120×91 samples of 2′",
      "ETOPO, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("topobathy", topobathy_vrt()); }},
@@ -139,8 +139,8 @@ bool looks_like_path(std::string_view text) { return text.find_first_of("./\\<")
 std::string jacksboro_vrt() { return vrt(kJacksboro); }
 std::string topobathy_vrt() { return vrt(kTopobathy); }
 
-TerrainSource open_maine_mosaic(int size) {
-  return source_of(kMaineMosaic, mirrored_mosaic(*open_maine().heights, size));
+TerrainSource open_helens_mosaic(int size) {
+  return source_of(kHelensMosaic, mirrored_mosaic(*open_helens().heights, size));
 }
 
 std::span<const TerrainType> terrains() { return kTerrains; }

@@ -14,8 +14,8 @@ namespace terrabench {
 std::string jacksboro_vrt();
 std::string topobathy_vrt();
 
-// mirrored_mosaic() of the terrain maine, size × size samples.
-inline constexpr std::string_view kMaineMosaic = "maine-mosaic";
-TerrainSource open_maine_mosaic(int size);
+// mirrored_mosaic() of the terrain helens, size × size samples.
+inline constexpr std::string_view kHelensMosaic = "helens-mosaic";
+TerrainSource open_helens_mosaic(int size);
 
 }  // namespace terrabench

@@ -138,8 +138,8 @@ TEST(Catalogue, ATypingSlipGetsTheNearestName) {
   EXPECT_THAT(failure.advice, HasSubstr("topobathy"));
   EXPECT_THAT(failure.advice, HasSubstr("path"));
   EXPECT_THAT(failure_of([] { (void)open_terrain("helen"); }).what, HasSubstr("did you mean 'helens'?"));
-  EXPECT_THAT(failure_of([] { (void)open_terrain("maine-mosiac"); }).what,
-              HasSubstr("did you mean 'maine-mosaic'?"));
+  EXPECT_THAT(failure_of([] { (void)open_terrain("helens-mosiac"); }).what,
+              HasSubstr("did you mean 'helens-mosaic'?"));
   EXPECT_THAT(failure_of([] { (void)open_terrain("himalaya"); }).what, Not(HasSubstr("did you mean")));
 }
 

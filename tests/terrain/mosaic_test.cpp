@@ -37,7 +37,7 @@ TEST(Mosaic, ASmallerSizeIsTheTilesMiddle) {
 }
 
 // No step between neighbouring samples is larger than on the tile.
-TEST(Mosaic, MaineIsContinuousOverItsTiles) {
+TEST(Mosaic, MountStHelensIsContinuousOverItsTiles) {
   const auto steepest = [](const Heightfield& field) {
     float most = 0;
     for (int j = 1; j < field.depth; ++j) {
@@ -48,7 +48,7 @@ TEST(Mosaic, MaineIsContinuousOverItsTiles) {
     }
     return most;
   };
-  const TerrainSource mosaic = open_terrain("maine-mosaic"), tile = open_terrain("maine");
+  const TerrainSource mosaic = open_terrain("helens-mosaic"), tile = open_terrain("helens");
   EXPECT_EQ(mosaic.heights->width, 4097);
   EXPECT_EQ(mosaic.heights->depth, 4097);
   EXPECT_EQ(steepest(*mosaic.heights), steepest(*tile.heights));
