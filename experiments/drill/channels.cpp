@@ -50,12 +50,18 @@ void measure(const Case& test_case, const RunOptions& options, Recorder& recorde
 const std::array kCropSpecs{
     ParameterSpec{"side", std::int64_t{200}, "samples", "side of a crop, at most that of the ground", 8,
                   16384},
+    ParameterSpec{"columns", std::int64_t{6}, "", "crops from west to east, evenly spaced over the ground", 2,
+                  1000},
+    ParameterSpec{"rows", std::int64_t{4}, "", "crops from north to south", 2, 1000},
 };
-constexpr int kColumns = 6, kRows = 4;  // crops, evenly spaced over the ground; neighbours overlap
 
 std::vector<Case> crop_cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& ground : grounds(options)) cases.push_back({ground, {kCropSpecs, {}}, ground});
+  if (!options.terrains.empty()) return cases;
+  // Large enough for separate crops of the paper's size.
+  const std::int64_t along = 3, side = 400;
+  cases.push_back({"maine", {kCropSpecs, {{"side", side}, {"columns", along}, {"rows", along}}}, "maine"});
   return cases;
 }
 
@@ -63,12 +69,13 @@ void measure_crops(const Case& test_case, const RunOptions& options, Recorder& r
   const TerrainSource source = recorder.terrain(open_ground(test_case.terrain, options.seed));
   const Heightfield& ground = *source.heights;
   const int side = std::min({test_case.integer("side"), ground.width, ground.depth});
-  progress.begin("routing crops", kColumns * kRows);
+  const int columns = test_case.integer("columns"), rows = test_case.integer("rows");
+  progress.begin("routing crops", static_cast<std::uint64_t>(columns) * rows);
   std::vector<double> searched, steepest;  // shares of the pixels that drain through one
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const Heightfield part = crop(ground, (ground.width - side) * column / (kColumns - 1),
-                                    (ground.depth - side) * row / (kRows - 1), side, side);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Heightfield part = crop(ground, (ground.width - side) * column / (columns - 1),
+                                    (ground.depth - side) * row / (rows - 1), side, side);
       progress.advance();
       if (pixels_of(part) == 0) continue;
       searched.push_back(std::ranges::max(route_flow(part).accumulation) / pixels_of(part));

@@ -1,4 +1,6 @@
 // The terrains that have a name: real ones read in place from packages, and generated ones.
+#include "terrain/sources/catalogue.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -12,10 +14,12 @@
 #include "terrain/files.h"
 #include "terrain/source.h"
 #include "terrain/sources/dem/dem.h"
+#include "terrain/sources/dem/embedded_dem.h"
 #include "terrain/sources/drawing/drawing.h"
 #include "terrain/sources/fractal/diamond_square.h"
 #include "terrain/sources/fractal/faults.h"
 #include "terrain/sources/fractal/hills.h"
+#include "terrain/sources/mosaic.h"
 #include "terrain/sources/noise/cave_terrain.h"
 
 namespace terrabench {
@@ -91,10 +95,19 @@ TerrainSource from_drawing(std::string_view name) {
   return source;
 }
 
+TerrainSource open_helens() { return from_dem("helens", embedded_dem("helens")); }
+
 constexpr TerrainType kTerrains[] = {
     {"jacksboro", "mountains with a fault valley, 403×344 samples of 3″",
      "SRTM, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("jacksboro", vrt(kJacksboro)); }},
+    {"helens", "Mount St. Helens after its eruption of 1980, 317×460 samples of 30 m", "USGS, terrain/dems",
+     [](std::uint64_t) { return open_helens(); }},
+    {kHelensMosaic,
+     "helens, repeated with every second tile mirrored: 4097×4097 samples, no measured ground of that size",
+     "USGS, terrain/dems", [](std::uint64_t) { return open_helens_mosaic(4097); }},
+    {"maine", "low hills, lakes and coast of Maine, 1201×1201 samples of 3″", "SRTM, terrain/dems",
+     [](std::uint64_t) { return from_dem("maine", embedded_dem("maine")); }},
     {"topobathy", "sea floor and coast off Vancouver Island, 120×91 samples of 2′",
      "ETOPO, in Debian's python-matplotlib-data",
      [](std::uint64_t) { return from_dem("topobathy", vrt(kTopobathy)); }},
@@ -123,6 +136,10 @@ constexpr TerrainType kTerrains[] = {
 bool looks_like_path(std::string_view text) { return text.find_first_of("./\\<") != std::string_view::npos; }
 
 }  // namespace
+
+TerrainSource open_helens_mosaic(int size) {
+  return source_of(kHelensMosaic, mirrored_mosaic(*open_helens().heights, size));
+}
 
 std::span<const TerrainType> terrains() { return kTerrains; }
 

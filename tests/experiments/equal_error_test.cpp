@@ -167,7 +167,7 @@ TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheTablesShowThem) {
   RunOptions options;
   options.profile = Profile::kPaper;
   for (const Case& at : experiment("cross.lod-equal-error").cases(options)) names.insert(at.name);
-  for (const char* const ground : {"jacksboro", "fractal", "peak"}) {
+  for (const char* const ground : {"jacksboro", "helens", "maine", "fractal", "peak"}) {
     for (const Entrant& entrant : entrants()) {
       const std::string start =
           std::string(ground) + "/" + entrant.name + (entrant.method == "brute_force" ? "" : "/");
@@ -184,7 +184,7 @@ TEST(EqualErrorCases, NameEveryMethodOnEveryGroundAndTheTablesShowThem) {
       EXPECT_EQ(table.rows.size(), entrants().size());
     }
   }
-  EXPECT_EQ(tables, 9U);
+  EXPECT_EQ(tables, 15U);
 }
 
 class EqualError : public ::testing::TestWithParam<std::string_view> {

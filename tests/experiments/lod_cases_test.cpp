@@ -22,7 +22,7 @@ constexpr std::string_view kExperiments[] = {"cross.lod-jump", "cross.lod-seams"
 TEST(TunedCases, TakeEveryMethodAndTheTablesShowThem) {
   for (const std::string_view id : kExperiments) {
     for (const Profile profile : {Profile::kQuick, Profile::kPaper}) {
-      const std::size_t grounds = profile == Profile::kQuick ? 2 : 3;
+      const std::size_t grounds = profile == Profile::kQuick ? 2 : 5;
       RunOptions options;
       options.profile = profile;
       EXPECT_EQ(experiment(id).cases(options).size(), grounds * entrants().size());

@@ -30,6 +30,15 @@ TEST(Scenes, KnowAScriptThatDigsForASolid) {
   std::filesystem::remove(file);
 }
 
+TEST(Scenes, MaineIsTheMiddleOfTheTile) {
+  Progress silent;
+  const TerrainSource part = scene({.terrain = "maine"}, silent).source, tile = open_terrain("maine");
+  ASSERT_EQ(part.heights->width, 513);
+  ASSERT_EQ(part.heights->depth, 513);
+  EXPECT_EQ(part.heights->at(0, 0), tile.heights->at(344, 344));
+  EXPECT_EQ(part.heights->at(512, 512), tile.heights->at(856, 856));
+}
+
 TEST(SettingSearch, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
   Progress silent;
   const Scene& tiny = scene({.terrain = "fractal", .size = 3}, silent);

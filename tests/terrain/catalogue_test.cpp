@@ -52,6 +52,40 @@ TEST(Catalogue, TopobathyHasSeaAndLandNorthFirst) {
   EXPECT_NEAR(field.cell_x / field.cell_z, 1, 0.01);
 }
 
+// Compiled in: read without a path to the sources.
+TEST(Catalogue, MountStHelensIsItsDemOf1980) {
+  const TerrainSource source = open_terrain("helens");
+  ASSERT_TRUE(source.heights);
+  const Heightfield& field = *source.heights;
+  EXPECT_EQ(field.width, 317);
+  EXPECT_EQ(field.depth, 460);
+  EXPECT_EQ(field.cell_x, 30);
+  EXPECT_EQ(field.cell_z, 30);
+  const HeightRange range = height_range(field);
+  EXPECT_EQ(range.lowest, 694);
+  EXPECT_EQ(range.highest, 2543);
+  EXPECT_EQ(range.no_data, 0U);
+  EXPECT_THAT(field.georeference.crs, HasSubstr("UTM zone 10N"));
+  EXPECT_EQ(source.checksum, "11aa3118666a8ea5969443d26c75b5e9");
+  EXPECT_EQ(open_terrain("helens").checksum, source.checksum);
+}
+
+TEST(Catalogue, MaineIsAWholeTile) {
+  const TerrainSource source = open_terrain("maine");
+  ASSERT_TRUE(source.heights);
+  const Heightfield& field = *source.heights;
+  EXPECT_EQ(field.width, 1201);
+  EXPECT_EQ(field.depth, 1201);
+  const HeightRange range = height_range(field);
+  EXPECT_EQ(range.lowest, -34);
+  EXPECT_EQ(range.highest, 463);
+  EXPECT_EQ(range.no_data, 0U);
+  EXPECT_NEAR(field.cell_x, 66.28, 0.05);
+  EXPECT_NEAR(field.cell_z, 92.6, 0.05);
+  EXPECT_THAT(source.notes, Contains(HasSubstr("cells of 3″")));
+  EXPECT_EQ(source.checksum, "ebc438b2ee84c1972fe324c349261da4");
+}
+
 TEST(Catalogue, EveryLineIsCompleteAndUnique) {
   std::set<std::string_view> names;
   for (const TerrainType& type : terrains()) {
@@ -101,6 +135,9 @@ TEST(Catalogue, ATypingSlipGetsTheNearestName) {
   EXPECT_THAT(failure.what, HasSubstr("unknown terrain 'jaksboro'; did you mean 'jacksboro'?"));
   EXPECT_THAT(failure.advice, HasSubstr("topobathy"));
   EXPECT_THAT(failure.advice, HasSubstr("path"));
+  EXPECT_THAT(failure_of([] { (void)open_terrain("helen"); }).what, HasSubstr("did you mean 'helens'?"));
+  EXPECT_THAT(failure_of([] { (void)open_terrain("helens-mosiac"); }).what,
+              HasSubstr("did you mean 'helens-mosaic'?"));
   EXPECT_THAT(failure_of([] { (void)open_terrain("himalaya"); }).what, Not(HasSubstr("did you mean")));
 }
 

@@ -227,17 +227,14 @@ std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
   for (const std::string& terrain : compared_grounds(options)) {
-    // The path `fly` suits the width of the other grounds. The fractal is 123 km wide in the paper profile; a
-    // flight as high as that width implies would not resolve its samples, and brute force takes ten seconds
-    // and more per frame.
-    const bool fractal = terrain == "fractal", large = paper && fractal;
+    const bool large = paper && terrain == "fractal";
     const std::int64_t frames = large ? 12 : paper ? 48 : 12, size = large ? 4097 : paper ? 1025 : 257;
     const auto add = [&](const std::string& name, const Entrant& entrant, double error) {
       cases.push_back({fmt::format("{}/{}", terrain, name),
                        {kTunedSpecs,
                         {{"method", entrant.name},
                          {"error", error},
-                         {"path", std::string(fractal ? "low" : "fly")},
+                         {"path", path_over(terrain)},
                          {"frames", frames},
                          {"size", size}}},
                        terrain});

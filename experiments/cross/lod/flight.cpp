@@ -13,6 +13,7 @@
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
 #include "terrain/memory.h"
+#include "terrain/sources/catalogue.h"
 #include "terrain/sources/fractal/diamond_square.h"
 
 namespace terrabench::cross {
@@ -72,6 +73,7 @@ bool any_visible(const SeenSamples& seen) {
 
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed) {
   if (name == "peak") return source_of(name, peak(size));
+  if (name == kHelensMosaic) return open_helens_mosaic(size);
   if (name == "hills") return source_of(name, noise_hills(size, seed));
   if (name != "fractal") return open_filled_heights(name, seed);
   return source_of(

@@ -21,9 +21,9 @@
 
 namespace terrabench::cross {
 
-// "fractal", "peak" and "hills" are generated, size × size samples: diamond-square mountains, a smooth peak
-// on flat land, and hills of noise. Any other name is opened as a terrain, and its holes are filled. Throws
-// usage_error for a solid.
+// "fractal", "peak", "hills" and "helens-mosaic" have size × size samples: diamond-square mountains, a smooth
+// peak on flat land, hills of noise, and measured ground repeated by reflection. Any other name is opened as
+// a terrain, and its holes are filled. Throws usage_error for a solid.
 TerrainSource open_ground(std::string_view name, int size, std::uint64_t seed);
 
 // The ground whose figures have no suffix.

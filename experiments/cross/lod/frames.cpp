@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "experiments/cross/lod/frame_cost.h"
+#include "experiments/cross/lod/tuned_cases.h"
 #include "experiments/cross/scale/scaling.h"
 #include "experiments/ground.h"
 #include "experiments/samples.h"
@@ -24,6 +25,7 @@
 #include "terrain/error.h"
 #include "terrain/machine_error.h"
 #include "terrain/memory.h"
+#include "terrain/sources/catalogue.h"
 
 namespace terrabench::cross {
 namespace {
@@ -36,12 +38,15 @@ const std::array kSpecs{
     ParameterSpec{"path", std::string("low"), "", "camera path: cross, fly, low, turn, walk, or a TOML file"},
     ParameterSpec{"frames", std::int64_t{4}, "", "frames of the path that are metered; half are timed", 1,
                   1000},
-    ParameterSpec{"smallest", std::int64_t{257}, "samples", "side of the smallest fractal, 2^n + 1", 3,
-                  16385},
+    ParameterSpec{"smallest", std::int64_t{257}, "samples", "side of the smallest fractal or mosaic, 2^n + 1",
+                  3, 16385},
     ParameterSpec{"largest", std::int64_t{513}, "samples",
-                  "side of the largest fractal, or of another generated ground", 3, 16385},
+                  "side of the largest fractal or mosaic, or of another generated ground", 3, 16385},
     ParameterSpec{"seconds", 240.0, "s", "for all sizes; a size that would exceed it is skipped", 0, 1e6},
 };
+
+// Whether a ground is measured at several sizes.
+bool grows(std::string_view terrain) { return terrain == kGrowing || terrain == kHelensMosaic; }
 
 // One method at one size.
 struct Measured {
@@ -178,21 +183,24 @@ void record_growth(const Curves& curves, Recorder& recorder) {
 std::vector<Case> cases(const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   std::vector<Case> cases;
-  for (const std::string& terrain : grounds(options, {std::string(kMainGround), std::string(kGrowing)})) {
-    const bool growing = terrain == kGrowing;
-    // As in cross.lod-equal-error.
-    const std::string path = growing ? "low" : "fly";
-    const std::int64_t largest = growing ? (paper ? 8193 : 513) : (paper ? 1025 : 257);
-    cases.push_back(
-        {terrain,
-         {kSpecs, {{"path", path}, {"frames", std::int64_t{paper ? 8 : 4}}, {"largest", largest}}},
-         terrain});
+  std::vector<std::string> own{std::string(kMainGround), std::string(kGrowing)};
+  if (paper) own.insert(own.end(), {"helens", "maine", std::string(kHelensMosaic)});
+  for (const std::string& terrain : grounds(options, std::move(own))) {
+    const std::int64_t smallest = terrain == kHelensMosaic ? 4097 : 257,
+                       largest = grows(terrain) ? (paper ? 8193 : 513) : (paper ? 1025 : 257);
+    cases.push_back({terrain,
+                     {kSpecs,
+                      {{"path", path_over(terrain)},
+                       {"frames", std::int64_t{paper ? 8 : 4}},
+                       {"smallest", smallest},
+                       {"largest", std::max(smallest, largest)}}},
+                     terrain});
   }
   return cases;
 }
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
-  const bool growing = at.terrain == kGrowing;
+  const bool growing = grows(at.terrain);
   const std::vector<int> sides = growing ? doubled_sides(at.integer("smallest"), at.integer("largest"))
                                          : std::vector{at.integer("largest")};
   if (sides.empty())
@@ -220,7 +228,7 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   if (!growing) return;
   recorder.add_varying("frame_sizes", "", static_cast<double>(plan.sizes()));
   plan.record(recorder);
-  record_growth(curves, recorder);
+  if (at.terrain == kGrowing) record_growth(curves, recorder);
 }
 
 }  // namespace

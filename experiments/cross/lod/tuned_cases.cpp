@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiments/ground.h"
+#include "terrain/sources/catalogue.h"
 
 namespace terrabench::cross {
 
@@ -18,19 +19,21 @@ const std::array<ParameterSpec, 6> kTunedSpecs{
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the generated grounds, 2^n + 1", 3, 8193},
 };
 
+std::string path_over(std::string_view terrain) {
+  return terrain == "fractal" || terrain == "maine" || terrain == kHelensMosaic ? "low" : "fly";
+}
+
 Case case_on(const std::string& terrain, const std::string& name, std::span<const ParameterSpec> specs,
              const RunOptions& options) {
   const bool paper = options.profile == Profile::kPaper;
   const std::int64_t size = paper ? 1025 : 257, frames = paper ? 24 : 12;
-  // As in cross.lod-equal-error.
-  const std::string path = terrain == "fractal" ? "low" : "fly";
-  return {name, {specs, {{"path", path}, {"frames", frames}, {"size", size}}}, terrain};
+  return {name, {specs, {{"path", path_over(terrain)}, {"frames", frames}, {"size", size}}}, terrain};
 }
 
 std::vector<std::string> compared_grounds(const RunOptions& options) {
-  std::vector<std::string> own{std::string(kMainGround), "fractal"};
-  if (options.profile != Profile::kQuick) own.push_back("peak");
-  return grounds(options, std::move(own));
+  const std::string main(kMainGround);
+  if (options.profile == Profile::kQuick) return grounds(options, {main, "fractal"});
+  return grounds(options, {main, "helens", "maine", "fractal", "peak"});
 }
 
 std::vector<Case> tuned_cases(const RunOptions& options) {

@@ -1,4 +1,4 @@
-// What the experiments share that compare all methods along one path over three grounds: their parameters,
+// What the experiments share that compare all methods along one path over the same grounds: their parameters,
 // and their cases, one per ground or one per ground and method.
 #pragma once
 
@@ -14,6 +14,9 @@ namespace terrabench::cross {
 // method, options, error, path, frames, size.
 extern const std::array<ParameterSpec, 6> kTunedSpecs;
 
+// The name of the camera path that suits a ground: over more than 60 km, `fly`, as high as the width implies,
+// would not resolve the samples.
+std::string path_over(std::string_view terrain);
 // A case on a ground, along the path that suits it; `specs` must contain path, frames and size. Generated
 // grounds have 257² samples, in the paper profile 1025²; 12 frames are metered, or 24.
 Case case_on(const std::string& terrain, const std::string& name, std::span<const ParameterSpec> specs,

@@ -17,7 +17,7 @@
 namespace terrabench::cross {
 
 struct SceneOptions {
-  std::string terrain;  // fractal, sequence, or what open_terrain() takes
+  std::string terrain;  // fractal, sequence, maine (its middle), or what open_terrain() takes
   int size = 257;       // samples along the fractal; 2^n + 1
   int resolution = 64;  // columns along a solid, the same for all types
   int lines = 101;      // of ground_lines()
