@@ -129,7 +129,7 @@ std::vector<RepresentationType>& table() {
        "TIN",
        "a triangulated irregular network by greedy insertion",
        "Garland & Heckbert 1995; ght §2.2",
-       {},
+       {.editable = true},
        Tin::parameters(),
        Tin::build,
        Tin::load,

@@ -5,38 +5,13 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "representations/column_grid.h"
-#include "representations/tin/triangle_plane.h"
+#include "representations/tin/triangle_scan.h"
 
 namespace terrabench::tin {
 namespace {
-
-// A sample of a triangle that it misses by most.
-struct Candidate {
-  float error = 0;
-  Sample at = {0, 0};
-};
-
-// The greatest |heights[i] - (first + slope · i)|. Floats that are not negative are ordered as whole numbers,
-// whose maximum compilers vectorise.
-float largest_miss(const float* heights, int count, float first, float slope) {
-  std::int32_t worst = 0;
-  for (int i = 0; i < count; ++i) {
-    const float miss = std::abs(heights[i] - (first + slope * static_cast<float>(i)));
-    worst = std::max(worst, std::bit_cast<std::int32_t>(miss));
-  }
-  return std::bit_cast<float>(worst);
-}
-
-int first_miss(const float* heights, int count, float first, float slope, float miss) {
-  for (int i = 0; i < count; ++i) {
-    if (std::abs(heights[i] - (first + slope * static_cast<float>(i))) == miss) return i;
-  }
-  return count - 1;
-}
 
 // A triangle whose candidate is to be inserted.
 struct Due {
@@ -55,49 +30,12 @@ std::uint32_t along_z_curve(Sample s) {
   return spread(s.i) | spread(s.j) << 1;
 }
 
-// The samples of a triangle by rows.
-class Rows {
- public:
-  explicit Rows(std::array<Sample, 3> p) : p_(p) {
-    std::ranges::sort(p_, {}, [](Sample s) { return s.j; });
-    long_ = per_row(p_[0], p_[2]);
-    upper_ = per_row(p_[0], p_[1]);
-    lower_ = per_row(p_[1], p_[2]);
-  }
-  int first() const { return p_[0].j; }
-  int last() const { return p_[2].j; }
-  // Of row j, west ≤ east unless it has none.
-  struct Columns {
-    int west, east;
-  };
-  Columns columns(int j) const {
-    const double one = p_[0].i + (j - p_[0].j) * long_;
-    const double other = j < p_[1].j || p_[1].j == p_[2].j ? p_[0].i + (j - p_[0].j) * upper_
-                                                           : p_[1].i + (j - p_[1].j) * lower_;
-    return {static_cast<int>(std::ceil(std::min(one, other) - kOnEdge)),
-            static_cast<int>(std::floor(std::max(one, other) + kOnEdge))};
-  }
-
- private:
-  // A sample that is not on an edge is at least 2⁻¹⁶ cells from it along its row; rounding moves an edge by
-  // less than 2⁻³⁰.
-  static constexpr double kOnEdge = 0x1p-20;
-
-  static double per_row(Sample a, Sample b) {
-    return a.j == b.j ? 0 : static_cast<double>(b.i - a.i) / (b.j - a.j);
-  }
-
-  std::array<Sample, 3> p_;      // from north to south
-  double long_, upper_, lower_;  // columns per row of the edges
-};
-
 class Insertion {
  public:
   Insertion(const Heightfield& field, float largest_error, Progress& progress)
       : field_(field), progress_(progress), surface_(field.width, field.depth) {
     const HeightRange range = height_range(field);
-    // Planes are evaluated in floats here: errors of rounding count.
-    const float rounding = 0x1p-21F * std::max(std::abs(range.lowest), std::abs(range.highest));
+    const float rounding = kScanRounding * std::max(std::abs(range.lowest), std::abs(range.highest));
     limit_ = std::max(0.0F, largest_error - rounding);
     has_holes_ = range.no_data > 0;
     for (const Sample corner : surface_.vertices()) heights_.push_back(height(corner));
@@ -212,36 +150,15 @@ class Insertion {
     candidates_.resize(surface_.triangles().size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 256), [&](const auto& range) {
       for (std::size_t k = range.begin(); k < range.end(); ++k) {
-        candidates_[triangles[k]] = worst_sample(surface_.triangles()[triangles[k]]);
+        candidates_[triangles[k]] = worst_of(surface_.triangles()[triangles[k]]);
       }
     });
   }
 
-  Candidate worst_sample(const Triangle& t) const {
-    Candidate worst;
-    if (!solid(surface_, t)) return worst;
-    std::array<Sample, 3> p;
-    std::array<float, 3> h;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = surface_.vertices()[t.vertex[k]];
-      h[k] = heights_[t.vertex[k]];
-    }
-    if (twice_area(p[0], p[1], p[2]) == 1) return worst;  // holds no other sample
-    const Plane plane(p, h);
-    const auto slope = static_cast<float>(plane.per_i);
-    const Rows rows(p);
-    for (int j = rows.first(); j <= rows.last(); ++j) {
-      const auto [west, east] = rows.columns(j);
-      if (east < west) continue;
-      const float* const heights = field_.heights.data() + static_cast<std::size_t>(j) * field_.width + west;
-      const int count = east - west + 1;
-      const auto first = static_cast<float>(plane(west, j));
-      const float miss = largest_miss(heights, count, first, slope);
-      if (!(miss > worst.error)) continue;
-      const int i = west + first_miss(heights, count, first, slope, miss);
-      worst = {miss, {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)}};
-    }
-    return worst;
+  Candidate worst_of(const Triangle& t) const {
+    if (!solid(surface_, t)) return {};
+    return worst_sample(surface_.corners(t), corner_heights(t, heights_),
+                        {field_.heights.data(), field_.width, {0, 0}});
   }
 
   const Heightfield& field_;
@@ -256,10 +173,16 @@ class Insertion {
 }  // namespace
 
 void put_in_order(Approximation& a) {
+  const auto [vertices, triangles] = a.surface.put_in_order();
   std::vector<float> heights;
-  heights.reserve(a.heights.size());
-  for (const std::uint32_t before : a.surface.put_in_order()) heights.push_back(a.heights[before]);
+  heights.reserve(vertices.size());
+  for (const std::uint32_t before : vertices) heights.push_back(a.heights[before]);
   a.heights = std::move(heights);
+  if (a.holes.empty()) return;
+  std::vector<std::uint8_t> holes;
+  holes.reserve(triangles.size());
+  for (const std::uint32_t before : triangles) holes.push_back(a.holes[before]);
+  a.holes = std::move(holes);
 }
 
 Approximation greedy_insertion(const Heightfield& field, float largest_error, Progress& progress) {

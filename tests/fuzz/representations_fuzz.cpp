@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "representations/line_grid.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "terrain/error.h"
@@ -29,7 +30,9 @@ void use(const RepresentationType& type, Representation& structure) {
   std::array<Material, 3> materials;
   structure.materials({x, y, z}, materials);
   if (sink.columns() != x.size() || structure.memory().total() == 0) std::abort();
-  if (type.traits.editable && y[0] < y[1]) {
+  // An edit of a TIN looks at all samples of the triangles it changes, of which two may have billions.
+  const LineGrid lines = structure.lines();
+  if (type.traits.editable && y[0] < y[1] && std::int64_t{lines.width} * lines.depth < 1 << 22) {
     structure.edit({std::span(x).first(1), std::span(z).first(1)},
                    std::array{Span{y[0], y[1], Material::kBedrock}});
   }
