@@ -15,10 +15,13 @@ inline int in_circle(Sample p, Sample b, Sample c, Sample q) {
         : x(std::int64_t{a.i} - from.i), y(std::int64_t{a.j} - from.j), square(x * x + y * y) {}
   };
   const Offset u(p, q), v(b, q), w(c, q);
-  const Wide power = static_cast<Wide>(u.square) * (v.x * w.y - v.y * w.x) +
-                     static_cast<Wide>(v.square) * (w.x * u.y - w.y * u.x) +
-                     static_cast<Wide>(w.square) * (u.x * v.y - u.y * v.x);
-  return power > 0 ? 1 : power < 0 ? -1 : 0;
+  const std::int64_t vw = v.x * w.y - v.y * w.x, wu = w.x * u.y - w.y * u.x, uv = u.x * v.y - u.y * v.x;
+  const auto sign = [](auto power) { return power > 0 ? 1 : power < 0 ? -1 : 0; };
+  // Below 2²⁹ each of the three products is below 2⁵⁸.
+  if ((u.square | v.square | w.square) < std::int64_t{1} << 29)
+    return sign(u.square * vw + v.square * wu + w.square * uv);
+  return sign(static_cast<Wide>(u.square) * vw + static_cast<Wide>(v.square) * wu +
+              static_cast<Wide>(w.square) * uv);
 }
 
 // Whether the diagonal pq of four points on one circle is preferred to bc.

@@ -1,8 +1,10 @@
 #include "representations/tin/delaunay.h"
 
-#include <tbb/parallel_sort.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "representations/tin/circles.h"
@@ -16,14 +18,20 @@ std::array<std::uint32_t, 3> corners_from(const Triangle& t, int first) {
   return {at(0), at(1), at(2)};
 }
 
-// 0 … n - 1 by ascending keys, which are all different.
-template <class Key>
-std::vector<std::uint32_t> sorted(std::size_t n, const Key& key) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(n);
-  for (std::uint32_t k = 0; k < n; ++k) keyed[k] = {key(k), k};
-  tbb::parallel_sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> order(n);
-  std::ranges::transform(keyed, order.begin(), [](const auto& pair) { return pair.second; });
+// 0 … n - 1 by ascending buckets, of which there are `buckets`, and in each by ascending keys. O(n) for small
+// buckets.
+template <class Bucket, class Key>
+std::vector<std::uint32_t> sorted(std::size_t n, std::size_t buckets, const Bucket& bucket, const Key& key) {
+  std::vector<std::uint32_t> end(buckets + 1), order(n);
+  for (std::uint32_t k = 0; k < n; ++k) ++end[bucket(k) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  for (std::uint32_t k = 0; k < n; ++k) order[end[bucket(k)]++] = k;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets), [&](const auto& range) {
+    for (std::size_t b = range.begin(); b < range.end(); ++b) {
+      std::sort(order.begin() + (b == 0 ? 0 : end[b - 1]), order.begin() + end[b],
+                [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+    }
+  });
   return order;
 }
 
@@ -47,29 +55,29 @@ void Delaunay::reserve(std::size_t vertices) {
 }
 
 Delaunay::Former Delaunay::put_in_order() {
-  std::vector<std::uint32_t> former = sorted(vertices_.size(), [&](std::uint32_t v) {
-    return std::uint64_t{vertices_[v].j} << 16 | vertices_[v].i;
-  });
+  std::vector<std::uint32_t> former = sorted(
+      vertices_.size(), std::size_t{1} << 16, [&](std::uint32_t v) { return vertices_[v].j; },
+      [&](std::uint32_t v) { return vertices_[v].i; });
   const std::vector<std::uint32_t> vertex_now = inverse(former);
-  for (Triangle& t : triangles_) {
+  tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t k) {
+    Triangle& t = triangles_[k];
     for (std::uint32_t& v : t.vertex) v = vertex_now[v];
     const auto first = std::ranges::min_element(t.vertex) - t.vertex.begin();
     std::ranges::rotate(t.vertex, t.vertex.begin() + first);
     std::ranges::rotate(t.neighbour, t.neighbour.begin() + first);
-  }
-  std::vector<std::uint32_t> order = sorted(triangles_.size(), [&](std::uint32_t t) {
-    return std::uint64_t{triangles_[t].vertex[0]} << 32 | triangles_[t].vertex[1];
   });
+  std::vector<std::uint32_t> order = sorted(
+      triangles_.size(), vertices_.size(), [&](std::uint32_t t) { return triangles_[t].vertex[0]; },
+      [&](std::uint32_t t) { return triangles_[t].vertex[1]; });
   const std::vector<std::uint32_t> triangle_now = inverse(order);
   std::vector<Sample> vertices;
   vertices.reserve(former.size());
   for (const std::uint32_t v : former) vertices.push_back(vertices_[v]);
-  std::vector<Triangle> triangles;
-  triangles.reserve(order.size());
-  for (const std::uint32_t t : order) {
-    triangles.push_back(triangles_[t]);
-    for (std::uint32_t& n : triangles.back().neighbour) n = n == kNone ? kNone : triangle_now[n];
-  }
+  std::vector<Triangle> triangles(order.size());
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
+    triangles[k] = triangles_[order[k]];
+    for (std::uint32_t& n : triangles[k].neighbour) n = n == kNone ? kNone : triangle_now[n];
+  });
   vertices_ = std::move(vertices);
   triangles_ = std::move(triangles);
   suspects_ = std::vector<std::uint32_t>();

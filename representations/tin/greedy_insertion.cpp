@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "representations/column_grid.h"
 #include "representations/tin/triangle_scan.h"
@@ -43,13 +44,20 @@ class Insertion {
 
   Approximation run() {
     if (has_holes_) insert_rims();
-    std::vector<std::uint32_t> changed(surface_.triangles().size());
-    for (std::uint32_t t = 0; t < changed.size(); ++t) changed[t] = t;
+    const auto all = [&] {
+      return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(surface_.triangles().size()));
+    };
     progress_.begin("tin", 0);
-    scan(changed);
+    scan({all().begin(), all().end()});
     for (float pass_limit = largest_candidate(); pass_limit > limit_;) {
       pass_limit = std::max(limit_, kFall * pass_limit);
-      while (insert_above(pass_limit)) progress_.advance();
+      std::vector<Due> due = due_among(all(), pass_limit);
+      while (!due.empty()) {
+        const std::vector<std::uint32_t> changed = insert(due);
+        scan(changed);
+        due = due_among(changed, pass_limit);  // the others were inserted into
+        progress_.advance();
+      }
     }
     progress_.end();
     Approximation result{std::move(surface_), std::move(heights_), {}};
@@ -62,10 +70,14 @@ class Insertion {
   }
 
  private:
-  static constexpr float kFall = 0.5F;  // of the limit from pass to pass
-  static constexpr float kListed = -1;  // the error of a triangle that waits for scan()
+  static constexpr float kFall = 0.5F;      // of the limit from pass to pass
+  static constexpr std::size_t kAhead = 8;  // triangles, of prefetching
+  static constexpr float kListed = -1;      // the error of a triangle that waits for scan()
 
   float height(Sample s) const { return field_.at(s.i, s.j); }
+  const float* sample(Sample s) const {
+    return field_.heights.data() + static_cast<std::size_t>(s.j) * field_.width + s.i;
+  }
 
   bool hole(int i, int j) const {  // the square of samples whose north-western one is (i, j)
     return std::isnan(field_.at(i, j) + field_.at(i + 1, j) + field_.at(i, j + 1) + field_.at(i + 1, j + 1));
@@ -119,40 +131,83 @@ class Insertion {
     return largest;
   }
 
-  // Inserts the worst sample of each triangle whose error exceeds the limit, unless this pass has already
-  // changed the triangle. Returns whether any was inserted. The order follows a Z-order curve, so that
+  // Those of the triangles that miss more than the limit. The order follows a Z-order curve, so that
   // triangles near in space are near in memory.
-  bool insert_above(float limit) {
+  template <class Triangles>
+  std::vector<Due> due_among(const Triangles& triangles, float limit) const {
     std::vector<Due> due;
-    for (std::uint32_t t = 0; t < candidates_.size(); ++t) {
+    for (const std::uint32_t t : triangles) {
       if (candidates_[t].error > limit) due.push_back({along_z_curve(candidates_[t].at), t});
     }
     tbb::parallel_sort(due.begin(), due.end());
+    return due;
+  }
+
+  // Inserts the worst sample of each triangle that has not been changed since `due` was listed. Returns what
+  // changed.
+  std::vector<std::uint32_t> insert(const std::vector<Due>& due) {
     std::vector<std::uint32_t> changed;
     std::size_t counted = 0;
-    for (const Due& next : due) {
-      if (!(candidates_[next.triangle].error > limit)) continue;
-      add(candidates_[next.triangle].at, next.triangle, changed);
+    for (std::size_t k = 0; k < due.size(); ++k) {
+      prefetch_for_insert(due, k);
+      const std::uint32_t t = due[k].triangle;
+      if (candidates_[t].error == kListed) continue;
+      add(candidates_[t].at, t, changed);
       candidates_.resize(surface_.triangles().size());
-      for (std::size_t k = counted; k < changed.size(); ++k) {
-        float& error = candidates_[changed[k]].error;
+      for (std::size_t c = counted; c < changed.size(); ++c) {
+        float& error = candidates_[changed[c]].error;
         if (error == kListed) continue;
         error = kListed;
-        changed[counted++] = changed[k];
+        changed[counted++] = changed[c];
       }
       changed.resize(counted);
     }
-    scan(changed);
-    return !changed.empty();
+    return changed;
   }
 
   void scan(const std::vector<std::uint32_t>& triangles) {
     candidates_.resize(surface_.triangles().size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 256), [&](const auto& range) {
       for (std::size_t k = range.begin(); k < range.end(); ++k) {
+        prefetch_for_scan(triangles, k);
         candidates_[triangles[k]] = worst_of(surface_.triangles()[triangles[k]]);
       }
     });
+  }
+
+  [[gnu::always_inline]] void prefetch_for_insert(const std::vector<Due>& due, std::size_t k) const {
+    if (k + 3 * kAhead >= due.size()) return;
+    prefetch(&surface_.triangles()[due[k + 3 * kAhead].triangle]);
+    prefetch(&candidates_[due[k + 3 * kAhead].triangle]);
+    prefetch(sample(candidates_[due[k + 2 * kAhead].triangle].at));
+    for (const std::uint32_t n : surface_.triangles()[due[k + 2 * kAhead].triangle].neighbour) {
+      if (n == Delaunay::kNone) continue;
+      prefetch(&surface_.triangles()[n]);
+      prefetch(&candidates_[n]);
+    }
+    for (const std::uint32_t n : surface_.triangles()[due[k + kAhead].triangle].neighbour) {
+      if (n == Delaunay::kNone) continue;
+      const Triangle& t = surface_.triangles()[n];
+      for (const std::uint32_t v : t.vertex) prefetch(&surface_.vertices()[v]);
+      for (const std::uint32_t beyond : t.neighbour) {
+        if (beyond != Delaunay::kNone) prefetch(&surface_.triangles()[beyond]);
+      }
+    }
+  }
+
+  // Waiting for memory would take most of the time. First the triangle, then its corners, then their samples.
+  [[gnu::always_inline]] void prefetch_for_scan(const std::vector<std::uint32_t>& triangles,
+                                                std::size_t k) const {
+    if (k + 3 * kAhead >= triangles.size()) return;
+    prefetch(&surface_.triangles()[triangles[k + 3 * kAhead]]);
+    prefetch(&candidates_[triangles[k + 2 * kAhead]]);
+    for (const std::uint32_t v : surface_.triangles()[triangles[k + 2 * kAhead]].vertex) {
+      prefetch(&surface_.vertices()[v]);
+      prefetch(&heights_[v]);
+    }
+    for (const Sample s : surface_.corners(surface_.triangles()[triangles[k + kAhead]])) {
+      prefetch(sample(s));
+    }
   }
 
   Candidate worst_of(const Triangle& t) const {

@@ -7,12 +7,18 @@
 namespace terrabench::tin {
 namespace {
 
+constexpr int kShort = 16;  // samples of a row, too few for vectors
+
+float miss_at(const float* heights, int i, float first, float slope) {
+  return std::abs(heights[i] - (first + slope * static_cast<float>(i)));
+}
+
 // The greatest |heights[i] - (first + slope · i)|. Floats that are not negative are ordered as whole numbers,
 // whose maximum compilers vectorise.
 float largest_miss(const float* heights, int count, float first, float slope) {
   std::int32_t worst = 0;
   for (int i = 0; i < count; ++i) {
-    const float miss = std::abs(heights[i] - (first + slope * static_cast<float>(i)));
+    const float miss = miss_at(heights, i, first, slope);
     worst = std::max(worst, std::bit_cast<std::int32_t>(miss));
   }
   return std::bit_cast<float>(worst);
@@ -20,7 +26,7 @@ float largest_miss(const float* heights, int count, float first, float slope) {
 
 int first_miss(const float* heights, int count, float first, float slope, float miss) {
   for (int i = 0; i < count; ++i) {
-    if (std::abs(heights[i] - (first + slope * static_cast<float>(i))) == miss) return i;
+    if (miss_at(heights, i, first, slope) == miss) return i;
   }
   return count - 1;
 }
@@ -40,10 +46,18 @@ Candidate worst_sample(const std::array<Sample, 3>& p, const std::array<float, 3
     const float* const heights = ground.at(west, j);
     const int count = east - west + 1;
     const auto first = static_cast<float>(plane(west, j));
+    const auto put = [&](float miss, int i) {
+      worst = {miss, {static_cast<std::uint16_t>(west + i), static_cast<std::uint16_t>(j)}};
+    };
+    if (count < kShort) {
+      for (int i = 0; i < count; ++i) {
+        const float miss = miss_at(heights, i, first, slope);
+        if (miss > worst.error) put(miss, i);
+      }
+      continue;
+    }
     const float miss = largest_miss(heights, count, first, slope);
-    if (!(miss > worst.error)) continue;
-    const int i = west + first_miss(heights, count, first, slope, miss);
-    worst = {miss, {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)}};
+    if (miss > worst.error) put(miss, first_miss(heights, count, first, slope, miss));
   }
   return worst;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "representations/tin/delaunay.h"
 
@@ -29,17 +30,22 @@ struct Candidate {
 Candidate worst_sample(const std::array<Sample, 3>&, const std::array<float, 3>& heights, const HeightsView&);
 inline constexpr float kScanRounding = 0x1p-21F;
 
-// The samples of a triangle by rows.
+// The samples of a triangle by rows, but for corners that are alone in theirs.
 class Rows {
  public:
   explicit Rows(std::array<Sample, 3> p) : p_(p) {
-    std::ranges::sort(p_, {}, [](Sample s) { return s.j; });
+    const auto order = [&](std::size_t a, std::size_t b) {
+      if (p_[b].j < p_[a].j) std::swap(p_[a], p_[b]);
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
     long_ = per_row(p_[0], p_[2]);
     upper_ = per_row(p_[0], p_[1]);
     lower_ = per_row(p_[1], p_[2]);
   }
-  int first() const { return p_[0].j; }
-  int last() const { return p_[2].j; }
+  int first() const { return p_[0].j + (p_[0].j < p_[1].j ? 1 : 0); }
+  int last() const { return p_[2].j - (p_[1].j < p_[2].j ? 1 : 0); }
   // Of row j, west ≤ east unless it has none.
   struct Columns {
     int west, east;
@@ -48,8 +54,10 @@ class Rows {
     const double one = p_[0].i + (j - p_[0].j) * long_;
     const double other = j < p_[1].j || p_[1].j == p_[2].j ? p_[0].i + (j - p_[0].j) * upper_
                                                            : p_[1].i + (j - p_[1].j) * lower_;
-    return {static_cast<int>(std::ceil(std::min(one, other) - kOnEdge)),
-            static_cast<int>(std::floor(std::max(one, other) + kOnEdge))};
+    // Truncation is floor() here: neither is under -kOnEdge.
+    const double west = std::min(one, other) - kOnEdge;
+    const int before = static_cast<int>(west);
+    return {before + (west > before ? 1 : 0), static_cast<int>(std::max(one, other) + kOnEdge)};
   }
 
  private:
