@@ -130,7 +130,11 @@ void Reinsertion::take_out(Sample s, bool changed) {
   locate(s);
   const std::uint32_t vertex = surface_.vertex_at(s, near_);
   if (vertex == Delaunay::kNone) {
-    if (changed) touch_triangles_of(s);
+    // One triangle that holds the sample is enough, since another one has it on their common edge.
+    if (changed) {
+      keep(near_);
+      changed_.push_back(near_);
+    }
     return;
   }
   const bool corner = (s.i == 0 || s.i == width_ - 1) && (s.j == 0 || s.j == depth_ - 1);
@@ -152,22 +156,6 @@ void Reinsertion::take_out(Sample s, bool changed) {
 void Reinsertion::changed_since(std::size_t before) {
   kept_.insert(changed_.begin() + static_cast<std::ptrdiff_t>(before), changed_.end());
   near_ = changed_.back();
-}
-
-// Those that hold a sample that is no vertex: two if it lies on an edge.
-void Reinsertion::touch_triangles_of(Sample s) {
-  const Triangle& t = surface_.triangles()[near_];
-  changed_.push_back(near_);
-  keep(near_);
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t beyond = t.neighbour[static_cast<std::size_t>(k)];
-    if (beyond == Delaunay::kNone ||
-        twice_area(surface_.vertex(t, (k + 1) % 3), surface_.vertex(t, (k + 2) % 3), s) != 0) {
-      continue;
-    }
-    changed_.push_back(beyond);
-    keep(beyond);
-  }
 }
 
 bool Reinsertion::no_data(int i, int j) {

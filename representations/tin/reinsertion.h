@@ -51,7 +51,6 @@ class Reinsertion {
   void locate(Sample s) { near_ = surface_.locate(s, near_); }
   void take_out(Sample, bool changed);
   void changed_since(std::size_t before);
-  void touch_triangles_of(Sample);
   bool no_data(int i, int j);
   bool on_rim(Sample);
   bool solid(const Triangle&);

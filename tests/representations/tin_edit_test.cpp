@@ -32,6 +32,7 @@ void expect_sound(const Tin& surface, const std::vector<float>& heights) {
   for (std::uint32_t t = 0; t < joined.triangles().size(); ++t) {
     const auto [a, b, c] = joined.corners(joined.triangles()[t]);
     ASSERT_GT(tin::twice_area(a, b, c), 0);
+    ASSERT_TRUE(tin::before(a, b) && tin::before(a, c)) << "planes of a copy are equal to the bit";
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t beyond = joined.triangles()[t].neighbour[k];
       if (beyond == Delaunay::kNone) continue;
@@ -151,6 +152,20 @@ TEST(TinEdit, OnAPlaneThePlaneStays) {
     }
   }
   EXPECT_LT(surface->triangles(), 600U);
+}
+
+TEST(TinEdit, WhereAHoleIsFilledNoVertexIsLeft) {
+  const auto surface = build_tin(Heightfield::zeros(60, 50), 0.01);
+  const float floor = surface->bounds().low.y;
+  for (const Sphere& sphere :
+       {Sphere{{30, 0, 20}, 7}, {{20, floor, 20}, 9}, {{0, floor, 0}, 9}, {{59, 0, 20}, 40}}) {
+    fill_sphere(*surface, sphere, Material::kAir);
+    EXPECT_GT(surface->triangles(), 30U);
+    EXPECT_FALSE(surface->height(sphere.centre.x, sphere.centre.z + 1) >= 0);
+    fill_sphere(*surface, {sphere.centre, 100}, Material::kBedrock);
+    EXPECT_EQ(surface->triangles(), 2U);
+    for (const float height : sampled(*surface)) ASSERT_EQ(height, 0);
+  }
 }
 
 TEST(TinEdit, ACavityIsRefusedAndChangesNothing) {
