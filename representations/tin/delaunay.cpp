@@ -63,8 +63,8 @@ Delaunay::Former Delaunay::put_in_order() {
     Triangle& t = triangles_[k];
     for (std::uint32_t& v : t.vertex) v = vertex_now[v];
     const auto first = std::ranges::min_element(t.vertex) - t.vertex.begin();
-    std::ranges::rotate(t.vertex, t.vertex.begin() + first);
-    std::ranges::rotate(t.neighbour, t.neighbour.begin() + first);
+    std::rotate(t.vertex.begin(), t.vertex.begin() + first, t.vertex.end());
+    std::rotate(t.neighbour.begin(), t.neighbour.begin() + first, t.neighbour.end());
   });
   std::vector<std::uint32_t> order = sorted(
       triangles_.size(), vertices_.size(), [&](std::uint32_t t) { return triangles_[t].vertex[0]; },

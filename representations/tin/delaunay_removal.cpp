@@ -85,8 +85,8 @@ void Delaunay::rotate(std::uint32_t triangle) {
   Triangle& t = triangles_[triangle];
   int first = before(vertex(t, 1), vertex(t, 0)) ? 1 : 0;
   if (before(vertex(t, 2), vertex(t, first))) first = 2;
-  std::ranges::rotate(t.vertex, t.vertex.begin() + first);
-  std::ranges::rotate(t.neighbour, t.neighbour.begin() + first);
+  std::rotate(t.vertex.begin(), t.vertex.begin() + first, t.vertex.end());
+  std::rotate(t.neighbour.begin(), t.neighbour.begin() + first, t.neighbour.end());
 }
 
 // From the greatest free index down, so that the last one is never free itself.

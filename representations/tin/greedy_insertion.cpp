@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <numeric>
 
 #include "representations/column_grid.h"
 #include "representations/tin/triangle_scan.h"
@@ -44,14 +44,11 @@ class Insertion {
 
   Approximation run() {
     if (has_holes_) insert_rims();
-    const auto all = [&] {
-      return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(surface_.triangles().size()));
-    };
     progress_.begin("tin", 0);
-    scan({all().begin(), all().end()});
+    scan(all_triangles());
     for (float pass_limit = largest_candidate(); pass_limit > limit_;) {
       pass_limit = std::max(limit_, kFall * pass_limit);
-      std::vector<Due> due = due_among(all(), pass_limit);
+      std::vector<Due> due = due_among(all_triangles(), pass_limit);
       while (!due.empty()) {
         const std::vector<std::uint32_t> changed = insert(due);
         scan(changed);
@@ -131,10 +128,15 @@ class Insertion {
     return largest;
   }
 
+  std::vector<std::uint32_t> all_triangles() const {
+    std::vector<std::uint32_t> all(surface_.triangles().size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+
   // Those of the triangles that miss more than the limit. The order follows a Z-order curve, so that
   // triangles near in space are near in memory.
-  template <class Triangles>
-  std::vector<Due> due_among(const Triangles& triangles, float limit) const {
+  std::vector<Due> due_among(const std::vector<std::uint32_t>& triangles, float limit) const {
     std::vector<Due> due;
     for (const std::uint32_t t : triangles) {
       if (candidates_[t].error > limit) due.push_back({along_z_curve(candidates_[t].at), t});

@@ -88,7 +88,7 @@ void Reinsertion::keep(std::uint32_t triangle) {
 bool Reinsertion::finish() {
   if (set_.empty()) return false;
   std::ranges::sort(set_, before);
-  set_.erase(std::ranges::unique(set_).begin(), set_.end());
+  set_.erase(std::unique(set_.begin(), set_.end()), set_.end());
   changing_ = true;
   near_ = locator_.find(surface_, set_[0].i, set_[0].j);
   for (const Sample s : set_) {
@@ -203,7 +203,7 @@ void Reinsertion::insert(Sample s) {
 
 void Reinsertion::scan_changed() {
   std::ranges::sort(changed_);
-  changed_.erase(std::ranges::unique(changed_).begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   if (!holes_.empty()) holes_.resize(surface_.triangles().size());
   for (const std::uint32_t at : changed_) {
     if (!surface_.in_use(at)) continue;

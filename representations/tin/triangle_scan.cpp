@@ -41,13 +41,13 @@ Candidate worst_sample(const std::array<Sample, 3>& p, const std::array<float, 3
   const auto slope = static_cast<float>(plane.per_i);
   const Rows rows(p);
   for (int j = rows.first(); j <= rows.last(); ++j) {
-    const auto [west, east] = rows.columns(j);
-    if (east < west) continue;
-    const float* const heights = ground.at(west, j);
-    const int count = east - west + 1;
-    const auto first = static_cast<float>(plane(west, j));
+    const Rows::Columns columns = rows.columns(j);
+    const int count = columns.east - columns.west + 1;
+    if (count < 1) continue;
+    const float* const heights = ground.at(columns.west, j);
+    const auto first = static_cast<float>(plane(columns.west, j));
     const auto put = [&](float miss, int i) {
-      worst = {miss, {static_cast<std::uint16_t>(west + i), static_cast<std::uint16_t>(j)}};
+      worst = {miss, {static_cast<std::uint16_t>(columns.west + i), static_cast<std::uint16_t>(j)}};
     };
     if (count < kShort) {
       for (int i = 0; i < count; ++i) {

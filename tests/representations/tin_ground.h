@@ -55,6 +55,7 @@ inline Delaunay triangulated(int width, int depth, const std::vector<Sample>& sa
 inline std::vector<Sample> some_samples(int side, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Sample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     samples.push_back({static_cast<std::uint16_t>(random() % static_cast<unsigned>(side)),
                        static_cast<std::uint16_t>(random() % static_cast<unsigned>(side))});
