@@ -25,11 +25,13 @@ std::vector<std::uint32_t> sorted(std::size_t n, std::size_t buckets, const Buck
   std::vector<std::uint32_t> end(buckets + 1), order(n);
   for (std::uint32_t k = 0; k < n; ++k) ++end[bucket(k) + 1];
   std::partial_sum(end.begin(), end.end(), end.begin());
-  for (std::uint32_t k = 0; k < n; ++k) order[end[bucket(k)]++] = k;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(n);
+  for (std::uint32_t k = 0; k < n; ++k) keyed[end[bucket(k)]++] = {key(k), k};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets), [&](const auto& range) {
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
-      std::sort(order.begin() + (b == 0 ? 0 : end[b - 1]), order.begin() + end[b],
-                [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+      const std::uint32_t first = b == 0 ? 0 : end[b - 1];
+      std::sort(keyed.begin() + first, keyed.begin() + end[b]);
+      for (std::uint32_t k = first; k < end[b]; ++k) order[k] = keyed[k].second;
     }
   });
   return order;
