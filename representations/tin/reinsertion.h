@@ -1,12 +1,13 @@
 // Changes heights of samples of a triangulation by greedy insertion where they changed. The vertices at those
 // samples and beside them are taken out; then of all samples in changed triangles the one that is missed by
-// most becomes a vertex, until none is missed by more than the limit (Garland & Heckbert 1995, algorithm II,
-// within the cavity). The result is the Delaunay triangulation of its vertices, as any other.
+// most becomes a vertex, until none is missed by more than the limit (Garland & Heckbert 1995, algorithm III,
+// from these triangles on). The result is the Delaunay triangulation of its vertices, as any other.
 //
 // A triangulation does not have the samples that it was built from. The ground to be met is the surface
 // itself before the change, at each sample of the triangles that change, and the heights that are set. So
-// each change moves the samples that it does not set by at most the limit, and only those within triangles
-// that have, before or after, a changed vertex or one that is new.
+// each change moves the samples that it does not set by at most the limit, and only within triangles that
+// gain or lose a corner. Keeping the samples would bound the sum of many changes too, at 4 B per sample,
+// where the whole triangulation of noise hills takes 5 to 6.
 //
 // O(s + v log v) for s samples in changed triangles and v new vertices.
 #pragma once
