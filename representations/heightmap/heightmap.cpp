@@ -125,25 +125,29 @@ std::vector<float> Heightmap::lines(float cell, float low, float high, double or
   return at;
 }
 
+std::optional<HeightGrid::Place> HeightGrid::nearest(float x, float z) const {
+  if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) return {};
+  const auto index = [](double at, int samples) {
+    return static_cast<int>(std::clamp(std::lround(at), 0L, static_cast<long>(samples - 1)));
+  };
+  return Place{index((x - origin_x) / cell_x, width), index((z - origin_z) / cell_z, depth)};
+}
+
+float edited_height(float height, const Span& what, const Bounds& bounds) {
+  const float bottom = std::max(what.bottom, bounds.low.y), top = std::min(what.top, bounds.high.y);
+  if (what.material != Material::kAir) return bottom < top && !(height >= top) ? top : height;
+  if (what.top < height || !(bottom < height)) return height;  // a roof stays, or nothing was there
+  return bottom > bounds.low.y ? bottom : Heightfield::kNoData;
+}
+
 void Heightmap::edit(Columns where, std::span<const Span> what) {
   check_edit(where, what);
-  Bounds& bounds = grid_.bounds;
   for (std::size_t c = 0; c < where.size(); ++c) {
-    const float x = where.x[c], z = where.z[c];
-    if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) continue;
-    const auto nearest = [](double at, int samples) {
-      return static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(samples - 1)));
-    };
-    float& height = heights_[nearest((z - grid_.origin_z) / grid_.cell_z, grid_.depth) *
-                                 static_cast<std::size_t>(grid_.width) +
-                             nearest((x - grid_.origin_x) / grid_.cell_x, grid_.width)];
-    const float bottom = std::max(what[c].bottom, bounds.low.y), top = std::min(what[c].top, bounds.high.y);
-    if (what[c].material == Material::kAir) {
-      if (what[c].top < height || !(bottom < height)) continue;  // a roof stays, or nothing was there
-      height = bottom > bounds.low.y ? bottom : Heightfield::kNoData;
-    } else if (bottom < top && !(height >= top)) {
-      height = top;
-    }
+    const auto at = grid_.nearest(where.x[c], where.z[c]);
+    if (!at) continue;
+    float& height = heights_[static_cast<std::size_t>(at->j) * static_cast<std::size_t>(grid_.width) +
+                             static_cast<std::size_t>(at->i)];
+    height = edited_height(height, what[c], grid_.bounds);
   }
 }
 

@@ -16,9 +16,18 @@ struct HeightGrid {
   double cell_x = 1, cell_z = 1;
   Bounds bounds;
 
+  // Row and column of the sample nearest to the point; none outside the bounds.
+  struct Place {
+    int i, j;
+  };
+  std::optional<Place> nearest(float x, float z) const;
+
   void save(ByteSink&) const;
   static HeightGrid load(ByteSource&);
 };
+
+// What Heightmap::edit() makes of a height; NaN is no data.
+float edited_height(float height, const Span& what, const Bounds&);
 
 class Heightmap final : public Representation {
  public:

@@ -1,9 +1,13 @@
 #include "representations/tin/delaunay.h"
 
-#include <tbb/parallel_sort.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+
+#include "representations/tin/circles.h"
 
 namespace terrabench::tin {
 namespace {
@@ -14,34 +18,22 @@ std::array<std::uint32_t, 3> corners_from(const Triangle& t, int first) {
   return {at(0), at(1), at(2)};
 }
 
-__extension__ typedef __int128 Wide;  // holds in_circle() of sides up to 2¹⁶
-
-int place_of(const std::array<std::uint32_t, 3>& indices, std::uint32_t index) {
-  return indices[0] == index ? 0 : indices[1] == index ? 1 : 2;
-}
-
-// The sign of q's power over the circle through p, b and c: positive inside.
-int in_circle(Sample p, Sample b, Sample c, Sample q) {
-  struct Offset {
-    std::int64_t x, y, square;
-    Offset(Sample a, Sample from)
-        : x(std::int64_t{a.i} - from.i), y(std::int64_t{a.j} - from.j), square(x * x + y * y) {}
-  };
-  const Offset u(p, q), v(b, q), w(c, q);
-  const Wide power = static_cast<Wide>(u.square) * (v.x * w.y - v.y * w.x) +
-                     static_cast<Wide>(v.square) * (w.x * u.y - w.y * u.x) +
-                     static_cast<Wide>(w.square) * (u.x * v.y - u.y * v.x);
-  return power > 0 ? 1 : power < 0 ? -1 : 0;
-}
-
-// 0 … n - 1 by ascending keys, which are all different.
-template <class Key>
-std::vector<std::uint32_t> sorted(std::size_t n, const Key& key) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(n);
-  for (std::uint32_t k = 0; k < n; ++k) keyed[k] = {key(k), k};
-  tbb::parallel_sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> order(n);
-  std::ranges::transform(keyed, order.begin(), [](const auto& pair) { return pair.second; });
+// 0 … n - 1 by ascending buckets, of which there are `buckets`, and in each by ascending keys. O(n) for small
+// buckets.
+template <class Bucket, class Key>
+std::vector<std::uint32_t> sorted(std::size_t n, std::size_t buckets, const Bucket& bucket, const Key& key) {
+  std::vector<std::uint32_t> end(buckets + 1), order(n);
+  for (std::uint32_t k = 0; k < n; ++k) ++end[bucket(k) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(n);
+  for (std::uint32_t k = 0; k < n; ++k) keyed[end[bucket(k)]++] = {key(k), k};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets), [&](const auto& range) {
+    for (std::size_t b = range.begin(); b < range.end(); ++b) {
+      const std::uint32_t first = b == 0 ? 0 : end[b - 1];
+      std::sort(keyed.begin() + first, keyed.begin() + end[b]);
+      for (std::uint32_t k = first; k < end[b]; ++k) order[k] = keyed[k].second;
+    }
+  });
   return order;
 }
 
@@ -64,34 +56,34 @@ void Delaunay::reserve(std::size_t vertices) {
   triangles_.reserve(2 * vertices);
 }
 
-std::vector<std::uint32_t> Delaunay::put_in_order() {
-  const std::vector<std::uint32_t> former = sorted(vertices_.size(), [&](std::uint32_t v) {
-    return std::uint64_t{vertices_[v].j} << 16 | vertices_[v].i;
-  });
+Delaunay::Former Delaunay::put_in_order() {
+  std::vector<std::uint32_t> former = sorted(
+      vertices_.size(), std::size_t{1} << 16, [&](std::uint32_t v) { return vertices_[v].j; },
+      [&](std::uint32_t v) { return vertices_[v].i; });
   const std::vector<std::uint32_t> vertex_now = inverse(former);
-  for (Triangle& t : triangles_) {
+  tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t k) {
+    Triangle& t = triangles_[k];
     for (std::uint32_t& v : t.vertex) v = vertex_now[v];
     const auto first = std::ranges::min_element(t.vertex) - t.vertex.begin();
-    std::ranges::rotate(t.vertex, t.vertex.begin() + first);
-    std::ranges::rotate(t.neighbour, t.neighbour.begin() + first);
-  }
-  const std::vector<std::uint32_t> order = sorted(triangles_.size(), [&](std::uint32_t t) {
-    return std::uint64_t{triangles_[t].vertex[0]} << 32 | triangles_[t].vertex[1];
+    std::rotate(t.vertex.begin(), t.vertex.begin() + first, t.vertex.end());
+    std::rotate(t.neighbour.begin(), t.neighbour.begin() + first, t.neighbour.end());
   });
+  std::vector<std::uint32_t> order = sorted(
+      triangles_.size(), vertices_.size(), [&](std::uint32_t t) { return triangles_[t].vertex[0]; },
+      [&](std::uint32_t t) { return triangles_[t].vertex[1]; });
   const std::vector<std::uint32_t> triangle_now = inverse(order);
   std::vector<Sample> vertices;
   vertices.reserve(former.size());
   for (const std::uint32_t v : former) vertices.push_back(vertices_[v]);
-  std::vector<Triangle> triangles;
-  triangles.reserve(order.size());
-  for (const std::uint32_t t : order) {
-    triangles.push_back(triangles_[t]);
-    for (std::uint32_t& n : triangles.back().neighbour) n = n == kNone ? kNone : triangle_now[n];
-  }
+  std::vector<Triangle> triangles(order.size());
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
+    triangles[k] = triangles_[order[k]];
+    for (std::uint32_t& n : triangles[k].neighbour) n = n == kNone ? kNone : triangle_now[n];
+  });
   vertices_ = std::move(vertices);
   triangles_ = std::move(triangles);
   suspects_ = std::vector<std::uint32_t>();
-  return former;
+  return {std::move(former), std::move(order)};
 }
 
 std::uint32_t Delaunay::locate(Sample p, std::uint32_t start) const {
@@ -108,6 +100,34 @@ std::uint32_t Delaunay::locate(Sample p, std::uint32_t start) const {
   }
 }
 
+std::uint32_t Delaunay::vertex_at(Sample s, std::uint32_t triangle) const {
+  for (const std::uint32_t v : triangles_[triangle].vertex) {
+    if (vertices_[v] == s) return v;
+  }
+  return kNone;
+}
+
+std::uint32_t Delaunay::new_vertex(Sample p) {
+  if (free_vertices_.empty()) {
+    vertices_.push_back(p);
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+  }
+  const std::uint32_t v = free_vertices_.back();
+  free_vertices_.pop_back();
+  vertices_[v] = p;
+  return v;
+}
+
+std::uint32_t Delaunay::new_triangle() {
+  if (free_triangles_.empty()) {
+    triangles_.emplace_back();
+    return static_cast<std::uint32_t>(triangles_.size() - 1);
+  }
+  const std::uint32_t t = free_triangles_.back();
+  free_triangles_.pop_back();
+  return t;
+}
+
 void Delaunay::replace(std::uint32_t triangle, std::uint32_t neighbour, std::uint32_t by) {
   if (triangle == kNone) return;
   auto& neighbours = triangles_[triangle].neighbour;
@@ -115,15 +135,14 @@ void Delaunay::replace(std::uint32_t triangle, std::uint32_t neighbour, std::uin
 }
 
 std::uint32_t Delaunay::insert(Sample p, std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
+  if (const std::uint32_t there = vertex_at(p, triangle); there != kNone) return there;
   const Triangle t = triangles_[triangle];
   int edge = 3;
   for (int k = 0; k < 3; ++k) {
     const Sample from = vertex(t, (k + 1) % 3), to = vertex(t, (k + 2) % 3);
-    if (from == p) return t.vertex[static_cast<std::size_t>((k + 1) % 3)];
     if (twice_area(from, to, p) == 0) edge = k;
   }
-  const auto added = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back(p);
+  const std::uint32_t added = new_vertex(p);
   suspects_.clear();
   if (edge == 3) {
     split(triangle, added);
@@ -138,10 +157,10 @@ std::uint32_t Delaunay::insert(Sample p, std::uint32_t triangle, std::vector<std
 void Delaunay::split(std::uint32_t first, std::uint32_t p) {
   const auto [a, b, c] = triangles_[first].vertex;
   const auto [beyond_a, beyond_b, beyond_c] = triangles_[first].neighbour;
-  const auto second = static_cast<std::uint32_t>(triangles_.size()), third = second + 1;
+  const std::uint32_t second = new_triangle(), third = new_triangle();
   triangles_[first] = {{p, b, c}, {beyond_a, second, third}};
-  triangles_.push_back({{p, c, a}, {beyond_b, third, first}});
-  triangles_.push_back({{p, a, b}, {beyond_c, first, second}});
+  triangles_[second] = {{p, c, a}, {beyond_b, third, first}};
+  triangles_[third] = {{p, a, b}, {beyond_c, first, second}};
   replace(beyond_b, first, second);
   replace(beyond_c, first, third);
   suspects_.insert(suspects_.end(), {first, second, third});
@@ -155,10 +174,9 @@ void Delaunay::split_edge(std::uint32_t near, int edge, std::uint32_t p) {
     return triangles_[near].neighbour[static_cast<std::size_t>((edge + k) % 3)];
   };
   const std::uint32_t far = near_side(0), beyond_b = near_side(1), beyond_c = near_side(2);
-  const auto near_new = static_cast<std::uint32_t>(triangles_.size());
-  const std::uint32_t far_new = far == kNone ? kNone : near_new + 1;
+  const std::uint32_t near_new = new_triangle(), far_new = far == kNone ? kNone : new_triangle();
   triangles_[near] = {{p, c, a}, {beyond_b, near_new, far}};
-  triangles_.push_back({{p, a, b}, {beyond_c, far_new, near}});
+  triangles_[near_new] = {{p, a, b}, {beyond_c, far_new, near}};
   replace(beyond_c, near, near_new);
   suspects_.insert(suspects_.end(), {near, near_new});
   if (far == kNone) return;
@@ -170,7 +188,7 @@ void Delaunay::split_edge(std::uint32_t near, int edge, std::uint32_t p) {
   const std::uint32_t beyond_far_c = far_side(1), beyond_far_b = far_side(2);
   // (q, c, b): opposite c lies edge bq, opposite b edge qc.
   triangles_[far] = {{p, q, c}, {beyond_far_b, near, far_new}};
-  triangles_.push_back({{p, b, q}, {beyond_far_c, far, near_new}});
+  triangles_[far_new] = {{p, b, q}, {beyond_far_c, far, near_new}};
   replace(beyond_far_c, far, far_new);
   suspects_.insert(suspects_.end(), {far, far_new});
 }
@@ -178,9 +196,7 @@ void Delaunay::split_edge(std::uint32_t near, int edge, std::uint32_t p) {
 bool Delaunay::should_flip(const Triangle& t, Sample q) const {
   const Sample p = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
   const int side = in_circle(p, b, c, q);
-  if (side != 0) return side > 0;
-  const Sample first = before(b, c) ? b : c;
-  return before(p, first) || before(q, first);
+  return side != 0 ? side > 0 : prefers(p, q, b, c);
 }
 
 // Each suspect has the new vertex as its corner 0.
@@ -208,6 +224,30 @@ void Delaunay::flip_from(std::vector<std::uint32_t>& changed) {
     replace(beyond_cp, near, far);
     suspects_.push_back(far);
   }
+}
+
+void Delaunay::append_conflicts(Sample p, std::uint32_t triangle, std::vector<std::uint32_t>& to) const {
+  const std::size_t first = to.size();
+  to.push_back(triangle);
+  for (std::size_t at = first; at < to.size(); ++at) {
+    for (const std::uint32_t beyond : triangles_[to[at]].neighbour) {
+      if (beyond == kNone ||
+          std::find(to.begin() + static_cast<std::ptrdiff_t>(first), to.end(), beyond) != to.end()) {
+        continue;
+      }
+      const Triangle& t = triangles_[beyond];
+      if (in_conflict(vertex(t, 0), vertex(t, 1), vertex(t, 2), p)) to.push_back(beyond);
+    }
+  }
+}
+
+void Delaunay::make_room() {
+  const auto grow = [](auto& elements) {
+    if (elements.size() + 2 > elements.capacity())
+      elements.reserve(elements.size() + elements.size() / 64 + 16);
+  };
+  grow(vertices_);
+  grow(triangles_);
 }
 
 }  // namespace terrabench::tin

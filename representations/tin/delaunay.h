@@ -35,6 +35,9 @@ struct Triangle {
   std::array<std::uint32_t, 3> neighbour;  // across the edge opposite the vertex; kNone beyond the rectangle
 };
 
+// GCC takes a function that only prefetches for one without effects, and drops calls of it.
+[[gnu::always_inline]] inline void prefetch(const void* from) { __builtin_prefetch(from); }
+
 class Delaunay {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -47,20 +50,64 @@ class Delaunay {
   const std::vector<Sample>& vertices() const { return vertices_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   Sample vertex(const Triangle& t, int k) const { return vertices_[t.vertex[static_cast<std::size_t>(k)]]; }
+  std::array<Sample, 3> corners(const Triangle& t) const {
+    return {vertices_[t.vertex[0]], vertices_[t.vertex[1]], vertices_[t.vertex[2]]};
+  }
 
   // A triangle that holds the point, on its border at least, by a walk from `start`. O(√triangles) at worst.
   std::uint32_t locate(Sample, std::uint32_t start) const;
+  // The vertex of this triangle at the sample; kNone if it has none there.
+  std::uint32_t vertex_at(Sample, std::uint32_t triangle) const;
   // Adds a vertex that lies in this triangle; returns its index, or that of the vertex already there.
   // Triangles keep their indices but change their corners; those that changed or are new are appended to
   // `changed`, some twice.
   std::uint32_t insert(Sample, std::uint32_t triangle, std::vector<std::uint32_t>& changed);
+  // Appends the triangles that insert() would change: those with the sample in their circumcircle.
+  void append_conflicts(Sample, std::uint32_t triangle, std::vector<std::uint32_t>& to) const;
+
+  // Appends the triangles around a vertex, one of which is given, as they turn from the first axis to the
+  // second; at the border from one side to the other.
+  void append_star(std::uint32_t vertex, std::uint32_t triangle, std::vector<std::uint32_t>& to) const;
+  // Takes out a vertex, not a corner of the rectangle, of which one triangle is given. Only triangles around
+  // it change. Their indices are appended to `changed`; those left over, and the vertex's, are free until
+  // insert() takes them or both compact_…() are called. O(n³) for n triangles, six in the mean.
+  void remove(std::uint32_t vertex, std::uint32_t triangle, std::vector<std::uint32_t>& changed);
+  bool in_use(std::uint32_t triangle) const {
+    return triangle < triangles_.size() && triangles_[triangle].vertex[0] != kNone;
+  }
+  // Makes the triangle begin with the corner that comes first in rows.
+  void rotate(std::uint32_t triangle);
+
+  // An element that has another index now.
+  struct Move {
+    std::uint32_t from, to;
+  };
+  // Fills free indices with the last triangles, then with the last vertices; find(sample) returns a triangle
+  // that holds the sample. Frees all memory that only changes need.
+  std::vector<Move> compact_triangles();
+  template <class Find>
+  std::vector<Move> compact_vertices(const Find& find);
 
   void reserve(std::size_t vertices);
+  // Room for one insert() at least, growing by a 64th instead of doubling: an edited triangulation keeps its
+  // slack. Moving the arrays then takes O(1) per vertex in the mean, but O(vertices) at once.
+  void make_room();
+  // The former index of each vertex and triangle.
+  struct Former {
+    std::vector<std::uint32_t> vertices, triangles;
+  };
   // Numbers vertices by rows and triangles by their corners, the first vertex first, so that the same
-  // vertices give the same arrays, without slack. Returns the former index of each vertex. O(n log n).
-  std::vector<std::uint32_t> put_in_order();
+  // vertices give the same arrays, without slack. O(n log n) at worst.
+  Former put_in_order();
 
  private:
+  struct RingEdge;
+  std::uint32_t new_vertex(Sample);
+  std::uint32_t new_triangle();
+  void fill(std::uint32_t triangle, const std::array<RingEdge, 3>& ring);
+  bool is_ear(const std::vector<RingEdge>& ring, std::size_t first) const;
+  std::vector<Move> free_and_last(std::vector<std::uint32_t>& free, std::size_t size) const;
+  void renumber(const Move&, std::uint32_t triangle);
   void split(std::uint32_t triangle, std::uint32_t vertex);
   void split_edge(std::uint32_t triangle, int edge, std::uint32_t vertex);
   void flip_from(std::vector<std::uint32_t>& changed);
@@ -70,7 +117,22 @@ class Delaunay {
   std::vector<Sample> vertices_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> suspects_;  // triangles whose edge opposite the new vertex is to be tested
+  std::vector<std::uint32_t> free_vertices_, free_triangles_;
 };
+
+template <class Find>
+std::vector<Delaunay::Move> Delaunay::compact_vertices(const Find& find) {
+  std::vector<Move> moves = free_and_last(free_vertices_, vertices_.size());
+  for (const Move& move : moves) {
+    const Sample at = vertices_[move.from];
+    renumber(move, find(at));
+    vertices_[move.to] = at;
+  }
+  vertices_.resize(vertices_.size() - free_vertices_.size());
+  free_vertices_ = std::vector<std::uint32_t>();
+  suspects_ = std::vector<std::uint32_t>();
+  return moves;
+}
 
 // Calls visit(k) once for each k below n, coarse to fine: row by row each vertex would change many triangles.
 template <class Visit>

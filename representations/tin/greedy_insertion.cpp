@@ -5,38 +5,14 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "representations/column_grid.h"
-#include "representations/tin/triangle_plane.h"
+#include "representations/tin/triangle_scan.h"
 
 namespace terrabench::tin {
 namespace {
-
-// A sample of a triangle that it misses by most.
-struct Candidate {
-  float error = 0;
-  Sample at = {0, 0};
-};
-
-// The greatest |heights[i] - (first + slope · i)|. Floats that are not negative are ordered as whole numbers,
-// whose maximum compilers vectorise.
-float largest_miss(const float* heights, int count, float first, float slope) {
-  std::int32_t worst = 0;
-  for (int i = 0; i < count; ++i) {
-    const float miss = std::abs(heights[i] - (first + slope * static_cast<float>(i)));
-    worst = std::max(worst, std::bit_cast<std::int32_t>(miss));
-  }
-  return std::bit_cast<float>(worst);
-}
-
-int first_miss(const float* heights, int count, float first, float slope, float miss) {
-  for (int i = 0; i < count; ++i) {
-    if (std::abs(heights[i] - (first + slope * static_cast<float>(i))) == miss) return i;
-  }
-  return count - 1;
-}
 
 // A triangle whose candidate is to be inserted.
 struct Due {
@@ -55,49 +31,12 @@ std::uint32_t along_z_curve(Sample s) {
   return spread(s.i) | spread(s.j) << 1;
 }
 
-// The samples of a triangle by rows.
-class Rows {
- public:
-  explicit Rows(std::array<Sample, 3> p) : p_(p) {
-    std::ranges::sort(p_, {}, [](Sample s) { return s.j; });
-    long_ = per_row(p_[0], p_[2]);
-    upper_ = per_row(p_[0], p_[1]);
-    lower_ = per_row(p_[1], p_[2]);
-  }
-  int first() const { return p_[0].j; }
-  int last() const { return p_[2].j; }
-  // Of row j, west ≤ east unless it has none.
-  struct Columns {
-    int west, east;
-  };
-  Columns columns(int j) const {
-    const double one = p_[0].i + (j - p_[0].j) * long_;
-    const double other = j < p_[1].j || p_[1].j == p_[2].j ? p_[0].i + (j - p_[0].j) * upper_
-                                                           : p_[1].i + (j - p_[1].j) * lower_;
-    return {static_cast<int>(std::ceil(std::min(one, other) - kOnEdge)),
-            static_cast<int>(std::floor(std::max(one, other) + kOnEdge))};
-  }
-
- private:
-  // A sample that is not on an edge is at least 2⁻¹⁶ cells from it along its row; rounding moves an edge by
-  // less than 2⁻³⁰.
-  static constexpr double kOnEdge = 0x1p-20;
-
-  static double per_row(Sample a, Sample b) {
-    return a.j == b.j ? 0 : static_cast<double>(b.i - a.i) / (b.j - a.j);
-  }
-
-  std::array<Sample, 3> p_;      // from north to south
-  double long_, upper_, lower_;  // columns per row of the edges
-};
-
 class Insertion {
  public:
   Insertion(const Heightfield& field, float largest_error, Progress& progress)
       : field_(field), progress_(progress), surface_(field.width, field.depth) {
     const HeightRange range = height_range(field);
-    // Planes are evaluated in floats here: errors of rounding count.
-    const float rounding = 0x1p-21F * std::max(std::abs(range.lowest), std::abs(range.highest));
+    const float rounding = kScanRounding * std::max(std::abs(range.lowest), std::abs(range.highest));
     limit_ = std::max(0.0F, largest_error - rounding);
     has_holes_ = range.no_data > 0;
     for (const Sample corner : surface_.vertices()) heights_.push_back(height(corner));
@@ -105,13 +44,17 @@ class Insertion {
 
   Approximation run() {
     if (has_holes_) insert_rims();
-    std::vector<std::uint32_t> changed(surface_.triangles().size());
-    for (std::uint32_t t = 0; t < changed.size(); ++t) changed[t] = t;
     progress_.begin("tin", 0);
-    scan(changed);
+    scan(all_triangles());
     for (float pass_limit = largest_candidate(); pass_limit > limit_;) {
       pass_limit = std::max(limit_, kFall * pass_limit);
-      while (insert_above(pass_limit)) progress_.advance();
+      std::vector<Due> due = due_among(all_triangles(), pass_limit);
+      while (!due.empty()) {
+        const std::vector<std::uint32_t> changed = insert(due);
+        scan(changed);
+        due = due_among(changed, pass_limit);  // the others were inserted into
+        progress_.advance();
+      }
     }
     progress_.end();
     Approximation result{std::move(surface_), std::move(heights_), {}};
@@ -124,10 +67,14 @@ class Insertion {
   }
 
  private:
-  static constexpr float kFall = 0.5F;  // of the limit from pass to pass
-  static constexpr float kListed = -1;  // the error of a triangle that waits for scan()
+  static constexpr float kFall = 0.5F;      // of the limit from pass to pass
+  static constexpr std::size_t kAhead = 8;  // triangles, of prefetching
+  static constexpr float kListed = -1;      // the error of a triangle that waits for scan()
 
   float height(Sample s) const { return field_.at(s.i, s.j); }
+  const float* sample(Sample s) const {
+    return field_.heights.data() + static_cast<std::size_t>(s.j) * field_.width + s.i;
+  }
 
   bool hole(int i, int j) const {  // the square of samples whose north-western one is (i, j)
     return std::isnan(field_.at(i, j) + field_.at(i + 1, j) + field_.at(i, j + 1) + field_.at(i + 1, j + 1));
@@ -181,67 +128,94 @@ class Insertion {
     return largest;
   }
 
-  // Inserts the worst sample of each triangle whose error exceeds the limit, unless this pass has already
-  // changed the triangle. Returns whether any was inserted. The order follows a Z-order curve, so that
+  std::vector<std::uint32_t> all_triangles() const {
+    std::vector<std::uint32_t> all(surface_.triangles().size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+
+  // Those of the triangles that miss more than the limit. The order follows a Z-order curve, so that
   // triangles near in space are near in memory.
-  bool insert_above(float limit) {
+  std::vector<Due> due_among(const std::vector<std::uint32_t>& triangles, float limit) const {
     std::vector<Due> due;
-    for (std::uint32_t t = 0; t < candidates_.size(); ++t) {
+    for (const std::uint32_t t : triangles) {
       if (candidates_[t].error > limit) due.push_back({along_z_curve(candidates_[t].at), t});
     }
     tbb::parallel_sort(due.begin(), due.end());
+    return due;
+  }
+
+  // Inserts the worst sample of each triangle that has not been changed since `due` was listed. Returns what
+  // changed.
+  std::vector<std::uint32_t> insert(const std::vector<Due>& due) {
     std::vector<std::uint32_t> changed;
     std::size_t counted = 0;
-    for (const Due& next : due) {
-      if (!(candidates_[next.triangle].error > limit)) continue;
-      add(candidates_[next.triangle].at, next.triangle, changed);
+    for (std::size_t k = 0; k < due.size(); ++k) {
+      prefetch_for_insert(due, k);
+      const std::uint32_t t = due[k].triangle;
+      if (candidates_[t].error == kListed) continue;
+      add(candidates_[t].at, t, changed);
       candidates_.resize(surface_.triangles().size());
-      for (std::size_t k = counted; k < changed.size(); ++k) {
-        float& error = candidates_[changed[k]].error;
+      for (std::size_t c = counted; c < changed.size(); ++c) {
+        float& error = candidates_[changed[c]].error;
         if (error == kListed) continue;
         error = kListed;
-        changed[counted++] = changed[k];
+        changed[counted++] = changed[c];
       }
       changed.resize(counted);
     }
-    scan(changed);
-    return !changed.empty();
+    return changed;
   }
 
   void scan(const std::vector<std::uint32_t>& triangles) {
     candidates_.resize(surface_.triangles().size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 256), [&](const auto& range) {
       for (std::size_t k = range.begin(); k < range.end(); ++k) {
-        candidates_[triangles[k]] = worst_sample(surface_.triangles()[triangles[k]]);
+        prefetch_for_scan(triangles, k);
+        candidates_[triangles[k]] = worst_of(surface_.triangles()[triangles[k]]);
       }
     });
   }
 
-  Candidate worst_sample(const Triangle& t) const {
-    Candidate worst;
-    if (!solid(surface_, t)) return worst;
-    std::array<Sample, 3> p;
-    std::array<float, 3> h;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = surface_.vertices()[t.vertex[k]];
-      h[k] = heights_[t.vertex[k]];
+  [[gnu::always_inline]] void prefetch_for_insert(const std::vector<Due>& due, std::size_t k) const {
+    if (k + 3 * kAhead >= due.size()) return;
+    prefetch(&surface_.triangles()[due[k + 3 * kAhead].triangle]);
+    prefetch(&candidates_[due[k + 3 * kAhead].triangle]);
+    prefetch(sample(candidates_[due[k + 2 * kAhead].triangle].at));
+    for (const std::uint32_t n : surface_.triangles()[due[k + 2 * kAhead].triangle].neighbour) {
+      if (n == Delaunay::kNone) continue;
+      prefetch(&surface_.triangles()[n]);
+      prefetch(&candidates_[n]);
     }
-    if (twice_area(p[0], p[1], p[2]) == 1) return worst;  // holds no other sample
-    const Plane plane(p, h);
-    const auto slope = static_cast<float>(plane.per_i);
-    const Rows rows(p);
-    for (int j = rows.first(); j <= rows.last(); ++j) {
-      const auto [west, east] = rows.columns(j);
-      if (east < west) continue;
-      const float* const heights = field_.heights.data() + static_cast<std::size_t>(j) * field_.width + west;
-      const int count = east - west + 1;
-      const auto first = static_cast<float>(plane(west, j));
-      const float miss = largest_miss(heights, count, first, slope);
-      if (!(miss > worst.error)) continue;
-      const int i = west + first_miss(heights, count, first, slope, miss);
-      worst = {miss, {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)}};
+    for (const std::uint32_t n : surface_.triangles()[due[k + kAhead].triangle].neighbour) {
+      if (n == Delaunay::kNone) continue;
+      const Triangle& t = surface_.triangles()[n];
+      for (const std::uint32_t v : t.vertex) prefetch(&surface_.vertices()[v]);
+      for (const std::uint32_t beyond : t.neighbour) {
+        if (beyond != Delaunay::kNone) prefetch(&surface_.triangles()[beyond]);
+      }
     }
-    return worst;
+  }
+
+  // Waiting for memory would take most of the time. First the triangle, then its corners, then their samples.
+  [[gnu::always_inline]] void prefetch_for_scan(const std::vector<std::uint32_t>& triangles,
+                                                std::size_t k) const {
+    if (k + 3 * kAhead >= triangles.size()) return;
+    prefetch(&surface_.triangles()[triangles[k + 3 * kAhead]]);
+    prefetch(&candidates_[triangles[k + 2 * kAhead]]);
+    for (const std::uint32_t v : surface_.triangles()[triangles[k + 2 * kAhead]].vertex) {
+      prefetch(&surface_.vertices()[v]);
+      prefetch(&heights_[v]);
+    }
+    for (const Sample s : surface_.corners(surface_.triangles()[triangles[k + kAhead]])) {
+      prefetch(sample(s));
+    }
+  }
+
+  Candidate worst_of(const Triangle& t) const {
+    if (!solid(surface_, t)) return {};
+    return worst_sample(surface_.corners(t), corner_heights(t, heights_),
+                        {field_.heights.data(), field_.width, {0, 0}});
   }
 
   const Heightfield& field_;
@@ -256,10 +230,16 @@ class Insertion {
 }  // namespace
 
 void put_in_order(Approximation& a) {
+  const auto [vertices, triangles] = a.surface.put_in_order();
   std::vector<float> heights;
-  heights.reserve(a.heights.size());
-  for (const std::uint32_t before : a.surface.put_in_order()) heights.push_back(a.heights[before]);
+  heights.reserve(vertices.size());
+  for (const std::uint32_t before : vertices) heights.push_back(a.heights[before]);
   a.heights = std::move(heights);
+  if (a.holes.empty()) return;
+  std::vector<std::uint8_t> holes;
+  holes.reserve(triangles.size());
+  for (const std::uint32_t before : triangles) holes.push_back(a.holes[before]);
+  a.holes = std::move(holes);
 }
 
 Approximation greedy_insertion(const Heightfield& field, float largest_error, Progress& progress) {

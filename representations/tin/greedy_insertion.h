@@ -21,8 +21,12 @@ struct Approximation {
   std::vector<std::uint8_t> holes;  // per triangle 1 for no data; empty if all samples have data
 };
 
-// Delaunay::put_in_order(), with the heights. Before `holes` is set.
+// Delaunay::put_in_order(), with the heights and holes.
 void put_in_order(Approximation&);
+
+inline std::array<float, 3> corner_heights(const Triangle& t, const std::vector<float>& heights) {
+  return {heights[t.vertex[0]], heights[t.vertex[1]], heights[t.vertex[2]]};
+}
 
 // In order. Every sample with data is met to within `largest_error` metres, ≥ 0. Squares of samples of which
 // one has no data are holes: all samples on their rims become vertices, so that triangles lie wholly inside

@@ -10,8 +10,8 @@
 #include "representations/coding/height_codec.h"
 #include "representations/column_grid.h"
 #include "representations/heightmap/closed_mesh.h"
-#include "representations/line_grid.h"
 #include "representations/procedural_mesh/shell.h"
+#include "representations/tin/reinsertion.h"
 #include "representations/tin/tin_codec.h"
 #include "representations/tin/triangle_plane.h"
 #include "terrain/error.h"
@@ -59,6 +59,14 @@ std::optional<tin::Approximation> triangulate(const HeightGrid& grid, std::span<
   return result;
 }
 
+std::pair<HeightGrid, float> load_head(ByteSource& in) {
+  const HeightGrid grid = HeightGrid::load(in);
+  if (grid.width < 2 || grid.depth < 2) in.fail("a triangulation has at least 2 × 2 samples");
+  const auto largest_error = in.get<float>();
+  if (!(largest_error >= 0) || std::isinf(largest_error)) in.fail("the largest error is impossible");
+  return {grid, largest_error};
+}
+
 Heightfield as_field(const Heightmap& map) {
   Heightfield field = Heightfield::zeros(map.grid().width, map.grid().depth);
   field.heights.assign(map.heights().begin(), map.heights().end());
@@ -72,12 +80,11 @@ std::span<const ParameterSpec> Tin::parameters() {
   return specs;
 }
 
-Tin::Tin(const HeightGrid& grid, tin::Approximation approximation)
+Tin::Tin(const HeightGrid& grid, float largest_error, tin::Approximation ground)
     : grid_(grid),
-      surface_(std::move(approximation.surface)),
-      heights_(std::move(approximation.heights)),
-      holes_(std::move(approximation.holes)),
-      locator_(surface_, grid.width, grid.depth) {}
+      largest_error_(largest_error),
+      ground_(std::move(ground)),
+      locator_(ground_.surface, grid.width, grid.depth) {}
 
 std::unique_ptr<Representation> Tin::build(const TerrainSource& source, const Parameters& parameters,
                                            Progress& progress) {
@@ -89,12 +96,12 @@ std::unique_ptr<Representation> Tin::build(const TerrainSource& source, const Pa
     const HeightRange range = height_range(field);
     error = std::max(0.0F, range.highest - range.lowest) / 256;
   }
-  return std::unique_ptr<Representation>(new Tin(map.grid(), tin::greedy_insertion(field, error, progress)));
+  return std::unique_ptr<Representation>(
+      new Tin(map.grid(), error, tin::greedy_insertion(field, error, progress)));
 }
 
 float Tin::height_in(const tin::Triangle& t, double i, double j) const {
-  const tin::Plane plane({surface_.vertex(t, 0), surface_.vertex(t, 1), surface_.vertex(t, 2)},
-                         {heights_[t.vertex[0]], heights_[t.vertex[1]], heights_[t.vertex[2]]});
+  const tin::Plane plane(ground_.surface.corners(t), tin::corner_heights(t, ground_.heights));
   return static_cast<float>(plane(i, j));
 }
 
@@ -105,17 +112,19 @@ float Tin::height(float x, float z) const {
   }
   const double i = in_cells(x, grid_.origin_x, grid_.cell_x, grid_.width),
                j = in_cells(z, grid_.origin_z, grid_.cell_z, grid_.depth);
-  const std::uint32_t at = locator_.find(surface_, i, j);
-  const tin::Triangle& t = surface_.triangles()[at];
-  if (holes_.empty() || holes_[at] == 0) return height_in(t, i, j);
+  const std::uint32_t at = locator_.find(ground_.surface, i, j);
+  const tin::Triangle& t = ground_.surface.triangles()[at];
+  if (ground_.holes.empty() || ground_.holes[at] == 0) return height_in(t, i, j);
   // Inside a hole there is no data. On its rim, and on lines between two holes, lie vertices one cell apart.
+  for (const std::uint32_t v : t.vertex) {
+    if (const tin::Sample a = ground_.surface.vertices()[v]; a.i == i && a.j == j) return ground_.heights[v];
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t from = t.vertex[(k + 1) % 3], to = t.vertex[(k + 2) % 3];
-    const tin::Sample a = surface_.vertices()[from], b = surface_.vertices()[to];
-    if (a.i == i && a.j == j) return heights_[from];
+    const tin::Sample a = ground_.surface.vertices()[from], b = ground_.surface.vertices()[to];
     if (std::abs(a.i - b.i) + std::abs(a.j - b.j) == 1 && tin::twice_area_to(a, b, i, j) == 0) {
       const auto along = static_cast<float>(std::abs(i - a.i) + std::abs(j - a.j));
-      return heights_[from] + along * (heights_[to] - heights_[from]);
+      return ground_.heights[from] + along * (ground_.heights[to] - ground_.heights[from]);
     }
   }
   return Heightfield::kNoData;
@@ -129,10 +138,26 @@ void Tin::spans(Columns where, SpanSink& out) const {
   }
 }
 
+void Tin::edit(Columns where, std::span<const Span> what) {
+  check_edit(where, what);
+  const Bounds& bounds = grid_.bounds;
+  tin::Reinsertion change(ground_, locator_, grid_.width, grid_.depth, largest_error_,
+                          std::max(std::abs(bounds.low.y), std::abs(bounds.high.y)));
+  for (std::size_t c = 0; c < where.size(); ++c) {
+    const auto at = grid_.nearest(where.x[c], where.z[c]);
+    if (!at) continue;
+    const tin::Sample sample{static_cast<std::uint16_t>(at->i), static_cast<std::uint16_t>(at->j)};
+    const float before = change.height(sample), after = edited_height(before, what[c], bounds);
+    if (after == before || (std::isnan(after) && std::isnan(before))) continue;
+    change.set(sample, after);
+  }
+  if (change.finish()) edited_ = true;
+}
+
 glm::vec3 Tin::position(std::uint32_t vertex) const {
-  const tin::Sample s = surface_.vertices()[vertex];
-  return {static_cast<float>(grid_.origin_x + s.i * grid_.cell_x), heights_[vertex],
-          static_cast<float>(grid_.origin_z + s.j * grid_.cell_z)};
+  const tin::Sample s = ground_.surface.vertices()[vertex];
+  const LineGrid grid = lines();
+  return {grid.x(s.i), ground_.heights[vertex], grid.z(s.j)};
 }
 
 TriangleMesh Tin::mesh(MeshDetail detail) const {
@@ -156,10 +181,10 @@ TriangleMesh Tin::mesh(MeshDetail detail) const {
     return closed_mesh(x, z, heights, grid_.bounds.low.y);
   }
   std::vector<glm::vec3> positions;
-  positions.reserve(heights_.size());
+  positions.reserve(ground_.heights.size());
   std::vector<glm::u32vec3> triangles;
-  triangles.reserve(surface_.triangles().size());
-  std::vector<std::uint32_t> numbers(heights_.size(), tin::Delaunay::kNone);
+  triangles.reserve(ground_.surface.triangles().size());
+  std::vector<std::uint32_t> numbers(ground_.heights.size(), tin::Delaunay::kNone);
   const auto number = [&](std::uint32_t v) {  // vertices of holes alone have none
     if (numbers[v] == tin::Delaunay::kNone) {
       numbers[v] = static_cast<std::uint32_t>(positions.size());
@@ -167,9 +192,9 @@ TriangleMesh Tin::mesh(MeshDetail detail) const {
     }
     return numbers[v];
   };
-  for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
-    if (!holes_.empty() && holes_[t] != 0) continue;
-    const auto [a, b, c] = surface_.triangles()[t].vertex;
+  for (std::size_t t = 0; t < ground_.surface.triangles().size(); ++t) {
+    if (!ground_.holes.empty() && ground_.holes[t] != 0) continue;
+    const auto [a, b, c] = ground_.surface.triangles()[t].vertex;
     const std::uint32_t first = number(a), second = number(b), third = number(c);
     triangles.emplace_back(first, third, second);  // seen from above: the second axis points south
   }
@@ -181,10 +206,10 @@ TriangleMesh Tin::mesh(MeshDetail detail) const {
 void Tin::add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::vec3>& positions,
                      std::vector<glm::u32vec3>& triangles) const {
   const Bounds& bounds = grid_.bounds;
-  const auto last_vertex = static_cast<std::uint32_t>(heights_.size() - 1);
-  const glm::vec3 first = position(0), last = position(last_vertex);  // in order: two corners
+  const LineGrid grid = lines();
+  const glm::vec2 first(grid.x(0), grid.z(0)), last(grid.x(grid.width - 1), grid.z(grid.depth - 1));
   const auto outward = [&](glm::vec3 p) {
-    const bool west = p.x <= first.x, east = p.x >= last.x, north = p.z <= first.z, south = p.z >= last.z;
+    const bool west = p.x <= first.x, east = p.x >= last.x, north = p.z <= first.y, south = p.z >= last.y;
     return glm::vec3(west   ? bounds.low.x
                      : east ? bounds.high.x
                             : p.x,
@@ -197,10 +222,10 @@ void Tin::add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::ve
   std::vector<std::uint32_t> copy(positions.size(), tin::Delaunay::kNone);
   const std::vector<DirectedEdge> border = [&] {
     std::vector<DirectedEdge> edges;
-    for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
-      const tin::Triangle& at = surface_.triangles()[t];
+    for (std::size_t t = 0; t < ground_.surface.triangles().size(); ++t) {
+      const tin::Triangle& at = ground_.surface.triangles()[t];
       for (std::size_t k = 0; k < 3; ++k) {
-        const bool hole = !holes_.empty() && holes_[t] != 0;
+        const bool hole = !ground_.holes.empty() && ground_.holes[t] != 0;
         if (at.neighbour[k] == tin::Delaunay::kNone && !hole)
           edges.push_back({numbers[at.vertex[(k + 2) % 3]], numbers[at.vertex[(k + 1) % 3]]});
       }
@@ -222,27 +247,34 @@ void Tin::add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::ve
 }
 
 Memory Tin::memory() const {
-  Memory memory = payload_memory(heights_);
-  memory += payload_memory(surface_.vertices());
-  memory += index_memory(surface_.triangles());
-  memory += index_memory(holes_);
+  Memory memory = payload_memory(ground_.heights);
+  memory += payload_memory(ground_.surface.vertices());
+  memory += index_memory(ground_.surface.triangles());
+  memory += index_memory(ground_.holes);
   memory += locator_.memory();
   memory.index += heap_bytes(this);
   return memory;
 }
 
+tin::Approximation Tin::in_order() const {
+  tin::Approximation ordered = ground_;
+  if (edited_) put_in_order(ordered);
+  return ordered;
+}
+
 void Tin::save(ByteSink& out) const {
+  const tin::Approximation ground = in_order();
   grid_.save(out);
-  out.put(static_cast<std::uint64_t>(heights_.size()));
-  out.put_array(std::span(surface_.vertices()));
-  out.put_array(std::span<const float>(heights_));
-  out.put(static_cast<std::uint8_t>(!holes_.empty()));
-  out.put_array(std::span<const std::uint8_t>(holes_));
+  out.put(largest_error_);
+  out.put(static_cast<std::uint64_t>(ground.heights.size()));
+  out.put_array(std::span(ground.surface.vertices()));
+  out.put_array(std::span<const float>(ground.heights));
+  out.put(static_cast<std::uint8_t>(!ground.holes.empty()));
+  out.put_array(std::span<const std::uint8_t>(ground.holes));
 }
 
 std::unique_ptr<Representation> Tin::load(ByteSource& in) {
-  const HeightGrid grid = HeightGrid::load(in);
-  if (grid.width < 2 || grid.depth < 2) in.fail("a triangulation has at least 2 × 2 samples");
+  const auto [grid, largest_error] = load_head(in);
   const auto count = in.get<std::uint64_t>();
   const std::vector<tin::Sample> vertices = in.get_array<tin::Sample>(count);
   std::vector<float> heights = in.get_array<float>(count);
@@ -258,21 +290,21 @@ std::unique_ptr<Representation> Tin::load(ByteSource& in) {
     restored->holes = in.get_array<std::uint8_t>(restored->surface.triangles().size());
     for (std::uint8_t& hole : restored->holes) hole = hole != 0 ? 1 : 0;
   }
-  return std::unique_ptr<Representation>(new Tin(grid, std::move(*restored)));
+  return std::unique_ptr<Representation>(new Tin(grid, largest_error, std::move(*restored)));
 }
 
 bool Tin::encode(double largest_error, ByteSink& out) const {
   grid_.save(out);
-  tin::encode({surface_, heights_, holes_}, grid_.width, grid_.depth, step_for(heights_, largest_error), out);
+  out.put(largest_error_);
+  tin::encode(in_order(), grid_.width, grid_.depth, step_for(ground_.heights, largest_error), out);
   return true;
 }
 
 std::unique_ptr<Representation> Tin::decode(ByteSource& in) {
-  const HeightGrid grid = HeightGrid::load(in);
-  if (grid.width < 2 || grid.depth < 2) in.fail("a triangulation has at least 2 × 2 samples");
+  const auto [grid, largest_error] = load_head(in);
   tin::Approximation decoded = tin::decode(in, grid.width, grid.depth);
   clamp_heights(decoded.heights, grid.bounds.low.y, grid.bounds.high.y);
-  return std::unique_ptr<Representation>(new Tin(grid, std::move(decoded)));
+  return std::unique_ptr<Representation>(new Tin(grid, largest_error, std::move(decoded)));
 }
 
 LineGrid Tin::lines() const {
@@ -280,7 +312,7 @@ LineGrid Tin::lines() const {
 }
 
 std::vector<std::pair<std::string, std::string>> Tin::facts() const {
-  return {{"triangulation", fmt::format("{} vertices, {} triangles", heights_.size(), triangles())}};
+  return {{"triangulation", fmt::format("{} vertices, {} triangles", ground_.heights.size(), triangles())}};
 }
 
 }  // namespace terrabench

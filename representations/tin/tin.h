@@ -1,14 +1,16 @@
 // Triangulated irregular network: the samples of a heightmap that greedy insertion picks (Garland & Heckbert
 // 1995), triangulated by Delaunay; the ground is linear on each triangle. The one knob is the largest error.
 // 56 B per vertex, of which 48 B are the triangles, and 2 to 4 B to find them by; a query walks over a few
-// triangles, O(1) on most ground.
+// triangles, O(1) on most ground. An edit triangulates again what it changes (reinsertion.h).
 //
 // To follow a TIN: greedy_insertion.h (which samples), delaunay.h (how they are joined), then here.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "representations/heightmap/heightmap.h"
+#include "representations/line_grid.h"
 #include "representations/representation.h"
 #include "representations/tin/greedy_insertion.h"
 #include "representations/tin/locator.h"
@@ -23,12 +25,18 @@ class Tin final : public Representation {
   static std::unique_ptr<Representation> load(ByteSource&);
   static std::unique_ptr<Representation> decode(ByteSource&);
 
-  std::size_t triangles() const { return surface_.triangles().size(); }
+  const tin::Approximation& ground() const { return ground_; }
+  std::size_t triangles() const { return ground_.surface.triangles().size(); }
   // As Heightmap::height(): no-data outside the bounds and in holes; between the outermost samples and the
   // bounds the border's height continues.
   float height(float x, float z) const;
 
   void spans(Columns where, SpanSink& out) const override;
+  // The samples change as those of a heightmap that has this surface's heights, and no sample then is missed
+  // by more than the largest error that the TIN was built with. Edits beside each other can each move
+  // samples between them by as much; over 1,000 random spheres on hills it came to 1.8 times as much.
+  void edit(Columns where, std::span<const Span> what) override;
+  std::optional<LineGrid> edited_lines() const override { return lines(); }
   // The triangles, closed by walls along the border and around holes and by the same triangles at the floor.
   TriangleMesh mesh(MeshDetail) const override;
   Memory memory() const override;  // payload: vertices and heights; index: triangles and where to find them
@@ -39,17 +47,20 @@ class Tin final : public Representation {
   std::vector<std::pair<std::string, std::string>> facts() const override;
 
  private:
-  Tin(const HeightGrid& grid, tin::Approximation);
+  // In order.
+  Tin(const HeightGrid& grid, float largest_error, tin::Approximation);
   float height_in(const tin::Triangle&, double i, double j) const;
   glm::vec3 position(std::uint32_t vertex) const;
   // `numbers`: of the vertices among the positions.
   void add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::vec3>& positions,
                   std::vector<glm::u32vec3>& triangles) const;
 
+  tin::Approximation in_order() const;
+
   HeightGrid grid_;
-  tin::Delaunay surface_;
-  std::vector<float> heights_;       // of the vertices, metres
-  std::vector<std::uint8_t> holes_;  // per triangle 1 for no data; empty if there is none
+  float largest_error_;  // metres
+  tin::Approximation ground_;
+  bool edited_ = false;  // the ground is not in order
   tin::Locator locator_;
 };
 

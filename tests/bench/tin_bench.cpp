@@ -1,10 +1,11 @@
-// Greedy insertion at 4096² of fractal mountains and of mirrored tiles of a real DEM, and queries at random
-// places. hmm (github.com/fogleman/hmm), which inserts one sample at a time on one thread, reports 0.52 M
-// vertices from 4745² samples in 4.9 s: 0.11 M/s.
+// Greedy insertion at 4096² of mirrored tiles of a real DEM, queries at random places, and edits. hmm
+// (github.com/fogleman/hmm), which inserts one sample at a time on one thread, reports 0.52 M vertices from
+// 4745² samples in 4.9 s: 0.11 M/s.
 #include <benchmark/benchmark.h>
 
 #include <random>
 
+#include "representations/edit_tools.h"
 #include "representations/tin/tin.h"
 
 namespace {
@@ -66,5 +67,26 @@ void queries(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(xs.size()) * state.iterations());
 }
 BENCHMARK(queries)->Arg(16)->Arg(4)->Unit(benchmark::kMillisecond);
+
+// Spheres dug and filled again at random places of 1024² samples, eight cells in radius.
+void edits(benchmark::State& state) {
+  const Heightfield field = tiled(1024);
+  Parameters parameters(Tin::parameters());
+  parameters.set("max_error", static_cast<double>(state.range(0)));
+  Progress progress;
+  const auto built = Tin::build(source_of("tiled", field), parameters, progress);
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> place(10, 1013);
+  for (auto _ : state) {
+    const int i = place(random), j = place(random);
+    const Sphere sphere{
+        {static_cast<float>(i) * field.cell_x, field.at(i, j), static_cast<float>(j) * field.cell_z},
+        8 * field.cell_x};
+    fill_sphere(*built, sphere, Material::kAir);
+    fill_sphere(*built, sphere, Material::kBedrock);
+  }
+  state.SetItemsProcessed(2 * state.iterations());
+}
+BENCHMARK(edits)->Arg(16)->Arg(4)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

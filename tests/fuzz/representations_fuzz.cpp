@@ -11,6 +11,7 @@
 
 #include "representations/ght/ght.h"
 #include "representations/ght/invariants.h"
+#include "representations/line_grid.h"
 #include "representations/procedural_mesh/model_terrain.h"
 #include "representations/representation.h"
 #include "terrain/error.h"
@@ -47,7 +48,9 @@ void use(const RepresentationType& type, Representation& structure) {
   if (const auto* const tree = dynamic_cast<const Ght*>(&structure)) {
     (void)ght::broken_invariants(tree->model());  // a file may break any of them
   }
-  if (type.traits.editable && y[0] < y[1]) {
+  // An edit of a TIN looks at all samples of the triangles it changes, of which two may have billions.
+  const LineGrid lines = structure.lines();
+  if (type.traits.editable && y[0] < y[1] && std::int64_t{lines.width} * lines.depth < 1 << 22) {
     structure.edit({std::span(x).first(1), std::span(z).first(1)},
                    std::array{Span{y[0], y[1], Material::kBedrock}});
   }

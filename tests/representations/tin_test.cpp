@@ -2,67 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-
 #include "representations/column_grid.h"
 #include "representations/tin/triangle_plane.h"
+#include "tests/representations/tin_ground.h"
 
-namespace terrabench {
+namespace terrabench::test {
 namespace {
-
-using tin::Delaunay;
-using tin::Sample;
-using tin::Triangle;
-
-Heightfield hills(int width, int depth) {
-  Heightfield field = Heightfield::zeros(width, depth, 10, 20);
-  for (int j = 0; j < depth; ++j) {
-    for (int i = 0; i < width; ++i) {
-      field.at(i, j) = static_cast<float>(300 * std::sin(0.11 * i) * std::cos(0.07 * j) +
-                                          40 * std::sin(0.9 * i + 0.4 * j));
-    }
-  }
-  return field;
-}
-
-std::unique_ptr<Representation> build(const Heightfield& field, double max_error) {
-  Parameters parameters(Tin::parameters());
-  parameters.set("max_error", max_error);
-  Progress progress;
-  return Tin::build(source_of("test", field), parameters, progress);
-}
-
-std::set<std::array<std::pair<int, int>, 3>> corners(const Delaunay& surface) {
-  std::set<std::array<std::pair<int, int>, 3>> all;
-  for (const Triangle& t : surface.triangles()) {
-    std::array<std::pair<int, int>, 3> at;
-    for (int k = 0; k < 3; ++k)
-      at[static_cast<std::size_t>(k)] = {surface.vertex(t, k).j, surface.vertex(t, k).i};
-    std::ranges::sort(at);
-    all.insert(at);
-  }
-  return all;
-}
-
-Delaunay triangulated(int width, int depth, const std::vector<Sample>& samples) {
-  Delaunay surface(width, depth);
-  std::vector<std::uint32_t> changed;
-  for (const Sample s : samples) surface.insert(s, surface.locate(s, 0), changed);
-  return surface;
-}
-
-std::vector<Sample> some_samples(int side, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<Sample> samples;
-  for (int k = 0; k < count; ++k) {
-    samples.push_back({static_cast<std::uint16_t>(random() % static_cast<unsigned>(side)),
-                       static_cast<std::uint16_t>(random() % static_cast<unsigned>(side))});
-  }
-  return samples;
-}
 
 // The square of the distance from a circle's centre, less that of its radius, by the determinant in long
 // double.
@@ -117,13 +62,12 @@ TEST(DelaunayTest, TheOrderOfInsertionDoesNotMatter) {
 TEST(TinTest, NoSampleIsMissedByMoreThanTheLargestError) {
   const Heightfield field = hills(150, 90);
   for (const double error : {50.0, 5.0, 0.5}) {
-    const auto built = build(field, error);
-    const auto& surface = static_cast<const Tin&>(*built);
+    const auto built = build_tin(field, error);
     float largest = 0;
     for (int j = 0; j < field.depth; ++j) {
       for (int i = 0; i < field.width; ++i) {
-        largest = std::max(largest, std::abs(field.at(i, j) - surface.height(10.0F * static_cast<float>(i),
-                                                                             20.0F * static_cast<float>(j))));
+        largest = std::max(largest, std::abs(field.at(i, j) - built->height(10.0F * static_cast<float>(i),
+                                                                            20.0F * static_cast<float>(j))));
       }
     }
     EXPECT_LE(largest, error);
@@ -132,8 +76,8 @@ TEST(TinTest, NoSampleIsMissedByMoreThanTheLargestError) {
 }
 
 TEST(TinTest, FlatGroundIsTwoTriangles) {
-  const auto built = build(Heightfield::zeros(300, 200), 0);
-  EXPECT_EQ(static_cast<const Tin&>(*built).triangles(), 2U);
+  const auto built = build_tin(Heightfield::zeros(300, 200), 0);
+  EXPECT_EQ(built->triangles(), 2U);
 }
 
 // The published order, one sample at a time, by searching all samples for each.
@@ -167,9 +111,9 @@ std::size_t vertices_of_strict_order(const Heightfield& field, float error) {
 TEST(TinTest, PassesTakeHardlyMoreVerticesThanOneSampleAtATime) {
   const Heightfield field = hills(65, 65);
   for (const float error : {40.0F, 10.0F}) {
-    const auto built = build(field, error);
+    const auto built = build_tin(field, error);
     const auto strict = static_cast<double>(vertices_of_strict_order(field, error));
-    const double taken = static_cast<double>(static_cast<const Tin&>(*built).triangles()) / 2;
+    const double taken = static_cast<double>(built->triangles()) / 2;
     EXPECT_LE(taken, 1.1 * strict) << error;
   }
 }
@@ -184,7 +128,7 @@ TEST(TinTest, HolesAreThoseOfTheHeightmap) {
     for (int i = 30; i < 60; ++i) field.at(i, j) = Heightfield::kNoData;
   }
   field.at(0, 0) = Heightfield::kNoData;
-  const auto built = build(field, 5);
+  const auto built = build_tin(field, 5);
   Progress progress;
   const auto map = Heightmap::build(source_of("test", field), Parameters(column_parameters()), progress);
   std::vector<float> x, z;
@@ -209,4 +153,4 @@ TEST(TinTest, HolesAreThoseOfTheHeightmap) {
 }
 
 }  // namespace
-}  // namespace terrabench
+}  // namespace terrabench::test
