@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "representations/column_grid.h"
 #include "representations/drill/drill_terrain.h"
 #include "representations/ght/ght.h"
@@ -166,6 +168,14 @@ void add_representation(const RepresentationType& type) {
   for (const RepresentationType& known : representations()) {
     if (known.name == type.name)
       throw usage_error("this name is taken", type.name, "choose another name for the representation");
+  }
+  const Parameters parameters(type.parameters);
+  for (const FileKnob& knob : type.file_knobs) {
+    if (!parameters.has(knob.parameter)) {
+      throw usage_error(
+          fmt::format("a file knob names the parameter '{}', which the type lacks", knob.parameter),
+          type.name, "name one of its parameters");
+    }
   }
   table().push_back(type);
 }

@@ -171,7 +171,7 @@ struct RepresentationType {
 // The table, one entry per method: registry.cpp.
 std::span<const RepresentationType> representations();
 // Adds a method of another program, which then takes part in everything. To be called before anything else
-// is: references to entries do not stay valid. Throws usage_error for a name that is taken.
+// is: references to entries do not stay valid. Throws usage_error for a taken name or an unknown file knob.
 void add_representation(const RepresentationType&);
 const RepresentationType& representation(std::string_view name);  // throws unknown_name
 

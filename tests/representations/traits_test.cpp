@@ -1,6 +1,9 @@
 // What a type's line in the registry says that it can do, it can do.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+
 #include "representations/layered_stack/thermal_erosion.h"
 #include "representations/ray_cast.h"
 #include "terrain/error.h"
@@ -54,6 +57,22 @@ INSTANTIATE_TEST_SUITE_P(EachType, Traits, testing::ValuesIn(names()),
 TEST(Registry, RefusesANameThatIsTaken) {
   const RepresentationType again = representations()[0];
   EXPECT_THROW(add_representation(again), Error);
+}
+
+TEST(Registry, RefusesAFileKnobOfAParameterThatTheTypeLacks) {
+  constexpr std::array kKnobs{FileKnob{"no_such_parameter", 0.1, 1}};
+  RepresentationType lacking = representations()[0];
+  lacking.name = "lacking";
+  lacking.file_knobs = kKnobs;
+  const std::size_t before = representations().size();
+  try {
+    add_representation(lacking);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("no_such_parameter"), std::string::npos);
+  }
+  EXPECT_EQ(representations().size(), before);
 }
 
 }  // namespace
