@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/terrain/errors.h"
@@ -84,7 +85,32 @@ TEST(CompressedSizes, OfFlatAndTinyFields) {
   }
 }
 
-TEST(CompressedSizes, SettingsAndHolesThatCannotBeAreRefused) {
+// The samples that are there have the errors of the setting, however the holes are filled.
+TEST(CompressedSizes, HolesHaveNoErrorAndTakeAMask) {
+  const Heightfield whole = waves(120, 90, true);
+  Heightfield field = whole;
+  for (std::size_t i = 0; i < field.heights.size(); ++i) {
+    if (i % 120 < 48) field.heights[i] = Heightfield::kNoData;  // 40 %
+  }
+  for (const auto& [codec, setting] : {std::pair{RasterCodec::kZstdDifferences, 1.0},
+                                       {RasterCodec::kJpeg2000, 100.0},
+                                       {RasterCodec::kLerc, 0.0}}) {
+    const CompressedSize size = compressed_size(field, codec, setting);
+    EXPECT_EQ(size.largest, 0) << name(codec);
+    EXPECT_LT(size.bytes, compressed_size(whole, codec, setting).bytes) << name(codec);
+    Heightfield raised = field;
+    raised.heights[60] += 1;  // beside the holes
+    EXPECT_EQ(compressed_size(raised, codec, setting).largest, 0) << name(codec);
+  }
+  // Two fields whose holes are filled alike differ by their masks.
+  Heightfield flat = test::ground_of(
+      64, 64, [](int, int) { return 5.0F; }, 1, 1);
+  const std::size_t full = compressed_size(flat, RasterCodec::kZstd, 1).bytes;
+  for (std::size_t i = 0; i < flat.heights.size(); i += 3 + i % 5) flat.heights[i] = Heightfield::kNoData;
+  EXPECT_GT(compressed_size(flat, RasterCodec::kZstd, 1).bytes, full + 20);
+}
+
+TEST(CompressedSizes, SettingsAndFieldsThatCannotBeAreRefused) {
   Heightfield field = waves(40, 40, false);
   const auto code = [&](RasterCodec codec, double setting) {
     return failure_of([&] { compressed_size(field, codec, setting); }).code;
@@ -97,7 +123,7 @@ TEST(CompressedSizes, SettingsAndHolesThatCannotBeAreRefused) {
   EXPECT_EQ(code(RasterCodec::kLerc, -1), ExitCode::kUsage);
   EXPECT_EQ(code(RasterCodec::kLerc, std::nan("")), ExitCode::kUsage);
   EXPECT_EQ(code(RasterCodec::kLercDeflate, -1), ExitCode::kUsage);
-  field.heights[3] = Heightfield::kNoData;
+  std::ranges::fill(field.heights, Heightfield::kNoData);
   for (const RasterCodec codec : kCodecs) EXPECT_EQ(code(codec, 1), ExitCode::kBadInput);
 }
 

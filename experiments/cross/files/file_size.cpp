@@ -111,10 +111,9 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
   }
 }
 
-// GDAL's formats have no holes: these are filled first.
 void measure_formats(const Scene& scene, Recorder& recorder) {
   if (!scene.source.heights) throw SkippedCase("these formats hold heights, and the ground is a solid");
-  const Heightfield field = fill_no_data(*scene.source.heights);
+  const Heightfield& field = *scene.source.heights;
   const double relief = relief_of(scene), own = own_bytes(scene);
   for (const auto& [codec, name] : kGdalFormats) {
     for (const double percent : kHeightErrors) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -55,7 +56,12 @@ struct Steps {
       numbers.push_back(static_cast<std::uint16_t>(std::lround((h - lowest) / step)));
     }
   }
-  double height(std::uint16_t number) const { return lowest + number * step; }
+  std::vector<double> heights() const {
+    std::vector<double> all;
+    all.reserve(numbers.size());
+    for (const std::uint16_t number : numbers) all.push_back(lowest + number * step);
+    return all;
+  }
 };
 
 // Whole metres where all heights are, otherwise as fine as 16 bits allow.
@@ -68,18 +74,56 @@ double natural_step(const Heightfield& field) {
   return std::max(1.0, finest * (1 + 1e-9));
 }
 
-template <class Height>
-CompressedSize compared(const Heightfield& field, std::size_t bytes, double setting, const Height& height) {
-  double sum = 0, largest = 0;
-  for (std::size_t i = 0; i < field.heights.size(); ++i) {
-    const double error = height(i) - field.heights[i];
-    sum += error * error;
-    largest = std::max(largest, std::abs(error));
-  }
-  return {bytes, std::sqrt(sum / static_cast<double>(field.heights.size())), largest, setting};
+std::size_t zstd_bytes(const void* data, std::size_t raw) {
+  std::vector<char> packed(ZSTD_compressBound(raw));
+  const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), data, raw, kZstdLevel);
+  if (ZSTD_isError(bytes) != 0) throw std::bad_alloc();  // the only way left to fail
+  return bytes;
 }
 
-CompressedSize zstd_size(const Heightfield& field, double step, bool differences) {
+// No codec here keeps holes: they are filled, and a bit per sample says where they are.
+struct Raster {
+  const Heightfield& given;
+  Heightfield filled;
+  std::size_t mask_bytes = 0;
+
+  explicit Raster(const Heightfield& field) : given(field), filled(field) {
+    const auto is_hole = [](float h) { return Heightfield::is_no_data(h); };
+    if (std::ranges::none_of(field.heights, is_hole)) return;
+    filled = fill_no_data(field);
+    std::vector<std::uint8_t> mask((field.heights.size() + 7) / 8);
+    bool whole = true;
+    for (std::size_t i = 0; i < field.heights.size(); ++i) {
+      const float h = field.heights[i];
+      if (is_hole(h)) mask[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
+      whole = whole && (is_hole(h) || h == std::round(h));
+    }
+    mask_bytes = zstd_bytes(mask.data(), mask.size());
+    if (!whole) return;
+    for (float& h : filled.heights) h = std::round(h);
+  }
+};
+
+// What a codec makes of the filled field.
+struct Coded {
+  std::size_t bytes = 0;
+  std::vector<double> heights;  // read back
+};
+
+CompressedSize compared(const Raster& raster, const Coded& coded, double setting) {
+  double sum = 0, largest = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < coded.heights.size(); ++i) {
+    if (Heightfield::is_no_data(raster.given.heights[i])) continue;
+    const double error = coded.heights[i] - raster.given.heights[i];
+    sum += error * error;
+    largest = std::max(largest, std::abs(error));
+    ++n;
+  }
+  return {coded.bytes + raster.mask_bytes, std::sqrt(sum / static_cast<double>(n)), largest, setting};
+}
+
+Coded zstd_size(const Heightfield& field, double step, bool differences) {
   const Steps steps(field, step);
   std::vector<std::uint16_t> numbers = steps.numbers;
   if (differences) {
@@ -89,11 +133,7 @@ CompressedSize zstd_size(const Heightfield& field, double step, bool differences
       }
     }
   }
-  const std::size_t raw = numbers.size() * sizeof numbers[0];
-  std::vector<char> packed(ZSTD_compressBound(raw));
-  const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), numbers.data(), raw, kZstdLevel);
-  if (ZSTD_isError(bytes) != 0) throw std::bad_alloc();  // the only way left to fail
-  return compared(field, bytes, step, [&](std::size_t i) { return steps.height(steps.numbers[i]); });
+  return {zstd_bytes(numbers.data(), numbers.size() * sizeof numbers[0]), steps.heights()};
 }
 
 Error gdal_failed(RasterCodec codec, const GdalMessages& messages) {
@@ -126,8 +166,8 @@ bool read_back(const MemoryFile& file, const Heightfield& field, GDALDataType ty
 }
 
 // The steps as 16-bit pixels in a format that GDAL only copies into, read back.
-CompressedSize copied_size(const Heightfield& field, RasterCodec codec, Steps steps, const char* format,
-                           const CPLStringList& options, double setting) {
+Coded copied_size(const Heightfield& field, RasterCodec codec, Steps steps, const char* format,
+                  const CPLStringList& options) {
   register_gdal();
   const GdalMessages messages;
   const MemoryFile plain, packed;
@@ -138,18 +178,17 @@ CompressedSize copied_size(const Heightfield& field, RasterCodec codec, Steps st
       driver->CreateCopy(packed.path.c_str(), source.get(), FALSE, options.List(), nullptr, nullptr));
   if (copy == nullptr) throw gdal_failed(codec, messages);
   copy.reset();
-  std::vector<std::uint16_t> numbers;
-  if (!read_back(packed, field, GDT_UInt16, numbers)) throw gdal_failed(codec, messages);
-  return compared(field, packed.size(), setting, [&](std::size_t i) { return steps.height(numbers[i]); });
+  if (!read_back(packed, field, GDT_UInt16, steps.numbers)) throw gdal_failed(codec, messages);
+  return {packed.size(), steps.heights()};
 }
 
-CompressedSize png_size(const Heightfield& field, double step) {
+Coded png_size(const Heightfield& field, double step) {
   CPLStringList options;
   options.SetNameValue("ZLEVEL", "9");
-  return copied_size(field, RasterCodec::kPng, Steps(field, step), "PNG", options, step);
+  return copied_size(field, RasterCodec::kPng, Steps(field, step), "PNG", options);
 }
 
-CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
+Coded jpeg2000_size(const Heightfield& field, double quality) {
   if (!(quality > 0 && quality <= 100)) {
     throw usage_error(fmt::format("quality must be above 0 and at most 100, got {}", quality),
                       "compressed size", "it is a percentage of the uncompressed size");
@@ -158,8 +197,8 @@ CompressedSize jpeg2000_size(const Heightfield& field, double quality) {
   options.SetNameValue("CODEC", "J2K");
   options.SetNameValue("QUALITY", fmt::format("{:.6f}", quality).c_str());
   options.SetNameValue("REVERSIBLE", quality == 100 ? "YES" : "NO");
-  return copied_size(field, RasterCodec::kJpeg2000, Steps(field, natural_step(field)), "JP2OpenJPEG", options,
-                     quality);
+  return copied_size(field, RasterCodec::kJpeg2000, Steps(field, natural_step(field)), "JP2OpenJPEG",
+                     options);
 }
 
 // The bytes of a GeoTIFF's first block: the rest is the container's, not the codec's.
@@ -170,7 +209,7 @@ std::size_t block_bytes(const MemoryFile& file) {
   return bytes == nullptr ? file.size() : std::strtoull(bytes, nullptr, 10);
 }
 
-CompressedSize lerc_size(const Heightfield& field, double largest_error, bool deflate) {
+Coded lerc_size(const Heightfield& field, double largest_error, bool deflate) {
   if (!(largest_error >= 0)) {
     throw usage_error(fmt::format("the largest error must be at least 0 m, got {} m", largest_error),
                       "compressed size", "0 is without loss");
@@ -191,8 +230,7 @@ CompressedSize lerc_size(const Heightfield& field, double largest_error, bool de
   if (messages.failed() || !read_back(packed, field, GDT_Float32, heights)) {
     throw gdal_failed(codec, messages);
   }
-  return compared(field, block_bytes(packed), largest_error,
-                  [&](std::size_t i) { return static_cast<double>(heights[i]); });
+  return {block_bytes(packed), {heights.begin(), heights.end()}};
 }
 
 // The range of settings that bisection searches, from the finest to the coarsest.
@@ -208,6 +246,24 @@ std::pair<double, double> setting_range(const Heightfield& field, RasterCodec co
     default:
       return {natural_step(field), span};
   }
+}
+
+CompressedSize size_of(const Raster& raster, RasterCodec codec, double setting) {
+  const auto coded = [&]() -> Coded {
+    const Heightfield& field = raster.filled;
+    switch (codec) {
+      case RasterCodec::kJpeg2000:
+        return jpeg2000_size(field, setting);
+      case RasterCodec::kLerc:
+      case RasterCodec::kLercDeflate:
+        return lerc_size(field, setting, codec == RasterCodec::kLercDeflate);
+      case RasterCodec::kPng:
+        return png_size(field, setting);
+      default:
+        return zstd_size(field, setting, codec == RasterCodec::kZstdDifferences);
+    }
+  };
+  return compared(raster, coded(), setting);
 }
 
 }  // namespace
@@ -230,33 +286,19 @@ std::string_view name(RasterCodec codec) {
 }
 
 CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting) {
-  for (const float h : field.heights) {
-    if (!std::isfinite(h)) {
-      throw bad_input("the field has samples without data", "compressed size", "fill them first");
-    }
-  }
-  switch (codec) {
-    case RasterCodec::kJpeg2000:
-      return jpeg2000_size(field, setting);
-    case RasterCodec::kLerc:
-    case RasterCodec::kLercDeflate:
-      return lerc_size(field, setting, codec == RasterCodec::kLercDeflate);
-    case RasterCodec::kPng:
-      return png_size(field, setting);
-    default:
-      return zstd_size(field, setting, codec == RasterCodec::kZstdDifferences);
-  }
+  return size_of(Raster(field), codec, setting);
 }
 
 CompressedSize compressed_size_at(const Heightfield& field, RasterCodec codec, double most,
                                   double CompressedSize::*error) {
   constexpr int kSteps = 14;
-  auto [fine, coarse] = setting_range(field, codec);
-  CompressedSize best = compressed_size(field, codec, fine);
+  const Raster raster(field);
+  auto [fine, coarse] = setting_range(raster.filled, codec);
+  CompressedSize best = size_of(raster, codec, fine);
   // Bisects the logarithm of the setting.
   for (int i = 0; i < kSteps; ++i) {
     const double middle = std::sqrt(fine * coarse);
-    const CompressedSize at = compressed_size(field, codec, middle);
+    const CompressedSize at = size_of(raster, codec, middle);
     if (at.*error > most) {
       coarse = middle;
       continue;

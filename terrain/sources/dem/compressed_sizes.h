@@ -1,5 +1,7 @@
 // The bytes and errors of a height field in usual raster formats: the yardstick for representations that
-// claim to be compact. Files are made in memory and read back; the error is that of the heights read.
+// claim to be compact. Files are made in memory and read back; the error is that of the heights read. Holes
+// are filled for the codec; they have no error, and a mask of one bit per sample, under zstd, counts as
+// bytes.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +29,7 @@ struct CompressedSize {
 
 // `setting`: the step in metres for zstd and PNG, the largest error in metres for both LERCs (0: none), and
 // for JPEG 2000 its quality, percent of the uncompressed size (100: no loss). Throws usage_error for settings
-// out of range or so fine that 16 bits do not suffice, bad_input for fields with holes, environment_error
+// out of range or so fine that 16 bits do not suffice, bad_input for fields without data, environment_error
 // when GDAL lacks the format.
 CompressedSize compressed_size(const Heightfield& field, RasterCodec codec, double setting);
 
