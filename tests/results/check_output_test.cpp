@@ -52,7 +52,7 @@ TEST_F(CheckOutput, OneLinePerMeasuredClaimFitsTheWidth) {
       EXPECT_EQ(count(text, "\n  " + judgement.claim->id + " "), 1U) << judgement.claim->id;
     }
     // Verdict, figure, what it must be, and its name where there is room.
-    EXPECT_THAT(text, ContainsRegex("\n  hybrid.T2.256 +reproduced .shape. +7.781 +.6.5, 9.5. *"));
+    EXPECT_THAT(text, ContainsRegex("\n  hybrid.T2.256 +reproduced .shape. +7.78 +.6.5, 9.5. *"));
   }
   EXPECT_THAT(check_text(results, {.width = 100}),
               ContainsRegex("\n  hybrid.T1.128 +reproduced +393,216 B +[=] 393,216 +paper stack bytes\n"));

@@ -113,7 +113,7 @@ TEST_F(LedgerTest, ARowOfSeveralConditionsShowsTheOneThatDecidesAndWhichItIs) {
             "none rate: not measured (condition 2 of 2)");
   EXPECT_EQ(measured(R"({order = [2e5, "e/none/rate"]})"), "rate: not measured");
   EXPECT_EQ(measured(slow + R"(, {growth = ["e/slow/rate", "e/fast/rate"], range = [13, 14]})"),
-            "growth of fast rate: 13.96 (condition 2 of 2: the nearest to its bound)");
+            "growth of fast rate: 14 (condition 2 of 2: the nearest to its bound)");
   // Words in place of the bounds: the bound stands beside the figure.
   const std::string words = "tolerance = \"above the floor\"\n";
   EXPECT_EQ(measured(slow, words), "rate: 270,000 1/s");
