@@ -30,6 +30,7 @@ const std::array kSpecs{
 // The search aims at them in this order, first at those that are ranked.
 constexpr std::array kHeightErrors{1.0, 0.1, 3.0, 0.3, 10.0, 0.03};
 constexpr std::array kSolidErrors{3.0, 1.0, 10.0};
+constexpr double kRmse = 0.5;                  // percent of the relief at which RMSEs are compared
 constexpr std::array kShares{1.0, 5.0, 20.0};  // percent of the ground's own bytes
 
 struct Format {
@@ -82,6 +83,22 @@ void record_closest(const std::vector<BuiltFile>& files, FileError error, std::s
   }
 }
 
+// How many times the bytes of JPEG 2000 at the same error the smallest file of the type takes.
+void record_beside_jpeg2000(const std::vector<BuiltFile>& files, const Scene& scene, Recorder& recorder) {
+  const double relief = relief_of(scene);
+  const auto add = [&](const char* metric, FileError error, double CompressedSize::*same, double percent) {
+    const double most = percent / 100 * relief;
+    const BuiltFile* const file = smallest_within(files, error, most);
+    if (file == nullptr)
+      return recorder.undefined({metric}, "no file that the search made is so close to the ground");
+    const CompressedSize peer = compressed_size_at(*scene.source.heights, RasterCodec::kJpeg2000, most, same);
+    if (peer.*same > most) return recorder.undefined({metric}, "JPEG 2000 does not come so close");
+    recorder.add(metric, "", static_cast<double>(file->bytes) / static_cast<double>(peer.bytes));
+  };
+  add("beside_jpeg2000", &BuiltFile::largest, &CompressedSize::largest, kHeightErrors.front());
+  add("beside_jpeg2000_rmse", &BuiltFile::rmse, &CompressedSize::rmse, kRmse);
+}
+
 void measure_type(const Scene& scene, const RepresentationType& type, int builds, Recorder& recorder,
                   Progress& progress) {
   const bool heights = scene.source.heights.has_value();
@@ -109,6 +126,7 @@ void measure_type(const Scene& scene, const RepresentationType& type, int builds
     recorder.add("best_rmse_bytes", "B", static_cast<double>(file.bytes));
     recorder.add("best_rmse", "m", file.rmse);
   }
+  record_beside_jpeg2000(files, scene, recorder);
 }
 
 void measure_formats(const Scene& scene, Recorder& recorder) {
