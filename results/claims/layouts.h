@@ -87,7 +87,7 @@ struct RankingLayout {
   std::string unit;                // that values are shown in
   bool most = false;               // the best has the most, otherwise the least
   // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
-  // says so: "of types that keep four fifths of the air under roofs".
+  // says so: "of types that come close to that error".
   std::string needs, needs_text;
   double needs_low = 0, needs_high = 0;
   std::vector<Entry> entries;

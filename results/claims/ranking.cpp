@@ -29,6 +29,11 @@ std::string other_unit(const RankingLayout& layout, const RankingLayout::Entry& 
                      differs(layout.unit) && !layout.unit.empty() ? layout.unit : "the unit of the others");
 }
 
+bool suits(const RankingLayout& layout, const Metric& needed) {
+  const double value = median(needed.samples);
+  return value >= layout.needs_low && value <= layout.needs_high;
+}
+
 // The measured entries; those that lack what is needed are noted in `left_out`, an entry in a unit that
 // cannot be converted in `not_compared`.
 std::vector<Candidate> candidates(const RankingLayout& layout, const Store& store, const std::string& profile,
@@ -37,7 +42,12 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
   for (const RankingLayout::Entry& entry : layout.entries) {
     const Record* const record = store.find(layout.experiment, entry.case_name, profile);
     const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
-    if (metric == nullptr) continue;
+    if (metric == nullptr) {
+      // Where a type does not reach the error of its case, nothing else is measured.
+      const Metric* const needed = record == nullptr ? nullptr : record->find(for_row(layout.needs, entry));
+      if (needed != nullptr && !suits(layout, *needed)) ranking.left_out.push_back(entry.label);
+      continue;
+    }
     const std::string fault = other_unit(layout, entry, *metric, all);
     if (!fault.empty()) {
       ranking.left_out.push_back(entry.label);
@@ -52,8 +62,7 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
   if (layout.needs.empty() || std::ranges::none_of(all, has)) return all;
   std::erase_if(all, [&](const Candidate& c) {
     const Metric* const needed = needed_by(c);
-    const double value = needed == nullptr ? layout.needs_low - 1 : median(needed->samples);
-    if (value >= layout.needs_low && value <= layout.needs_high) return false;
+    if (needed != nullptr && suits(layout, *needed)) return false;
     ranking.left_out.push_back(c.entry->label);
     return true;
   });

@@ -43,8 +43,8 @@ struct Ranking {
   // The factor alone: "1.3 [1.2, 1.4] ×", "tied, within 1.1 [1.05, 1.2] ×", "tied", "alone"; of one that is
   // decided.
   std::string lead() const;
-  // "on caves: " and the result
-  std::string clause() const { return layout->where + ": " + result(); }
+  // "on caves: ", the result, and "(left out: drills and heightmap)"
+  std::string clause() const;
 };
 
 // Of all claims files that are compiled in.

@@ -60,6 +60,11 @@ std::string Ranking::lead() const {
   return text == "1" ? "tied" : fmt::format("tied, within {} ×", text);
 }
 
+std::string Ranking::clause() const {
+  const std::string text = layout->where + ": " + result();
+  return left_out.empty() ? text : fmt::format("{} (left out: {})", text, list_of(left_out, ", ", " and "));
+}
+
 std::string tie_rule() {
   return fmt::format(
       "A method led if that factor is at least a margin and its 95 % interval lies above 1; methods are tied "

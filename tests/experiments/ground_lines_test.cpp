@@ -51,6 +51,45 @@ TEST(GroundLines, LengthsOfPartsAreExact) {
   EXPECT_EQ(left[2].top, 6.75F);
 }
 
+TEST(GroundLines, RandomLinesLieInTheirSquaresAndOnNoGrid) {
+  const TerrainSource source = roofed();
+  const GroundLines lines = random_lines(source, 16, 1), middles = ground_lines(source, 16);
+  ASSERT_EQ(lines.x.size(), 16U * 16);
+  double moved = 0;
+  for (std::size_t c = 0; c < lines.x.size(); ++c) {
+    EXPECT_LT(std::abs(lines.x[c] - middles.x[c]), 2);
+    EXPECT_LT(std::abs(lines.z[c] - middles.z[c]), 2);
+    moved += std::abs(lines.x[c] - middles.x[c]) + std::abs(lines.z[c] - middles.z[c]);
+  }
+  EXPECT_NEAR(moved / 512, 1, 0.15);  // half of the farthest
+}
+
+TEST(GroundLines, VolumesAndTheAirUnderOverhangsHaveErrorsOfTheirOwn) {
+  const TerrainSource source = roofed();
+  const GroundLines lines = random_lines(source, 16, 1);
+  const VolumeErrors exact = volume_errors(*build("layered_stack", source, 64), lines);
+  EXPECT_EQ(exact.volume, 0);
+  EXPECT_EQ(exact.air, 0);
+  // Under the roof, 16 of 64 m are air, and 24 + 8 m solid; elsewhere 24 m are.
+  const VolumeErrors filled = volume_errors(*build("heightmap", source, 64), lines);
+  EXPECT_NEAR(filled.volume, 16.0 / (24 + 8 + 16 + 24), 0.01);
+  EXPECT_EQ(filled.air, 1);
+}
+
+// A floor at a third of a sample's distance from where samples lie.
+TEST(GroundLines, EndsLieBetweenSamples) {
+  TerrainSource source = roofed();
+  source.solid->column = [](const ColumnSamples& at, std::span<Material> out) {
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] = at.y0 + static_cast<float>(k) * at.dy < 24.3F ? Material::kBedrock : Material::kAir;
+    }
+  };
+  for (const Part& part : ground_lines(source, 16).parts.line(7)) {
+    EXPECT_EQ(part.bottom, 0);
+    EXPECT_NEAR(part.top, 24.3, 0.5 / 16);
+  }
+}
+
 TEST(GroundLines, AStructureOnTheGridIsExact) {
   const Differences found = between("layered_stack", roofed(), 64);
   EXPECT_EQ(found.rmse, 0);

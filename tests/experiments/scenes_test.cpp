@@ -45,7 +45,7 @@ TEST(SettingSearch, TakesGroundOfFewerSamplesThanTheCoarsestSettingHasColumns) {
   for (const RepresentationType& type : representations()) {
     SettingSearch search(tiny, type, silent);
     if (const auto chosen = search.for_error(1e3)) {
-      EXPECT_LE(chosen->trial.rmse, 1e3) << type.name;
+      EXPECT_LE(chosen->trial.error, 1e3) << type.name;
     }
   }
 }

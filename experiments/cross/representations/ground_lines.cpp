@@ -3,16 +3,19 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "representations/line_grid.h"
 #include "terrain/metrics/nearest_point.h"
+#include "terrain/splitmix.h"
 
 namespace terrabench::cross {
 namespace {
 
 constexpr int kSamplesPerStep = 4;  // of solids, along a line
+constexpr int kFiner = 16;          // samples between two of them that differ
 
 double length(std::span<const Part> parts) {
   double sum = 0;
@@ -35,12 +38,25 @@ void sample_solid(const Solid& solid, float x, float z, float step, LineParts& o
   const Bounds& bounds = solid.bounds;
   const int n = std::max(1, static_cast<int>(std::lround(kSamplesPerStep * bounds.size().y / step)));
   const float dy = bounds.size().y / static_cast<float>(n);
+  const auto height = [&](float k) { return bounds.low.y + k * dy; };
   column.resize(static_cast<std::size_t>(n));
-  solid.column({x, z, bounds.low.y + 0.5F * dy, dy}, column);
-  for (int k = 0; k < n; ++k) {
-    if (column[static_cast<std::size_t>(k)] == Material::kAir) continue;
-    out.add({bounds.low.y + static_cast<float>(k) * dy, bounds.low.y + static_cast<float>(k + 1) * dy});
+  solid.column({x, z, height(0.5F), dy}, column);
+  const auto add = [&](float k, float thick) { out.add({height(k), height(k + thick)}); };
+  const auto is_solid = [&](int k) { return column[static_cast<std::size_t>(k)] != Material::kAir; };
+  if (is_solid(0)) add(0, 0.5F);
+  for (int k = 0; k + 1 < n; ++k) {
+    const float from = static_cast<float>(k) + 0.5F;
+    if (is_solid(k) && is_solid(k + 1)) {
+      add(from, 1);
+    } else if (is_solid(k) != is_solid(k + 1)) {
+      std::array<Material, kFiner> between{};
+      solid.column({x, z, height(from + 0.5F / kFiner), dy / kFiner}, between);
+      for (std::size_t i = 0; i < between.size(); ++i) {
+        if (between[i] != Material::kAir) add(from + static_cast<float>(i) / kFiner, 1.0F / kFiner);
+      }
+    }
   }
+  if (is_solid(n - 1)) add(static_cast<float>(n) - 0.5F, 0.5F);
   out.end_line();
 }
 
@@ -53,6 +69,15 @@ std::vector<Part> cavities(std::span<const Part> solid, float low) {
     from = part.top;
   }
   return gaps;
+}
+
+LineParts all_cavities(const LineParts& parts, float low) {
+  LineParts all;
+  for (std::size_t c = 0; c < parts.lines(); ++c) {
+    for (const Part& gap : cavities(parts.line(c), low)) all.add(gap);
+    all.end_line();
+  }
+  return all;
 }
 
 // The walls between two neighbouring lines: where exactly one of the two is solid. use(first, low, high) says
@@ -193,6 +218,16 @@ void compare_cavities(const GroundLines& ground, const LineParts& built, float m
   }
 }
 
+std::optional<double> iou(const LineParts& a, const LineParts& b) {
+  double both = 0, either = 0;
+  for (std::size_t c = 0; c < a.lines(); ++c) {
+    const double shared = overlap(a.line(c), b.line(c));
+    both += shared;
+    either += length(a.line(c)) + length(b.line(c)) - shared;
+  }
+  return either > 0 ? std::optional(both / either) : std::nullopt;
+}
+
 Differences tops_and_volume(const Representation& built, const TerrainSource& source,
                             const GroundLines& ground, const LineParts& parts) {
   Differences found;
@@ -201,14 +236,41 @@ Differences tops_and_volume(const Representation& built, const TerrainSource& so
   } else {
     compare_tops(ground, parts, found);
   }
-  double both = 0, either = 0;
-  for (std::size_t c = 0; c < parts.lines(); ++c) {
-    const double shared = overlap(ground.parts.line(c), parts.line(c));
-    both += shared;
-    either += length(ground.parts.line(c)) + length(parts.line(c)) - shared;
-  }
-  if (either > 0) found.volume_iou = both / either;
+  found.volume_iou = iou(ground.parts, parts);
   return found;
+}
+
+// A square per line, the line at its middle.
+GroundLines squares(const TerrainSource& source, int along) {
+  GroundLines lines;
+  lines.bounds = source.bounds();
+  const glm::vec3 low = lines.bounds.low, size = lines.bounds.size();
+  lines.step = std::max(size.x, size.z) / static_cast<float>(along);
+  lines.width = std::max(1, static_cast<int>(size.x / lines.step + 1e-3F));
+  lines.depth = std::max(1, static_cast<int>(size.z / lines.step + 1e-3F));
+  for (int j = 0; j < lines.depth; ++j) {
+    for (int i = 0; i < lines.width; ++i) {
+      lines.x.push_back(low.x + (static_cast<float>(i) + 0.5F) * lines.step);
+      lines.z.push_back(low.z + (static_cast<float>(j) + 0.5F) * lines.step);
+    }
+  }
+  return lines;
+}
+
+LineParts ground_parts(const TerrainSource& source, const GroundLines& lines) {
+  const float low = lines.bounds.low.y;
+  return in_rows(lines.depth, [&](int j, LineParts& out) {
+    for (int i = 0; i < lines.width; ++i) {
+      const std::size_t c = lines.index(i, j);
+      if (source.solid) {
+        sample_solid(*source.solid, lines.x[c], lines.z[c], lines.step, out);
+        continue;
+      }
+      const float height = source.heights->sample(lines.x[c], lines.z[c]);
+      if (height > low) out.add({low, height});
+      out.end_line();
+    }
+  });
 }
 
 }  // namespace
@@ -258,30 +320,19 @@ std::vector<Part> without(std::span<const Part> from, std::span<const Part> remo
 }
 
 GroundLines ground_lines(const TerrainSource& source, int along) {
-  GroundLines lines;
-  lines.bounds = source.bounds();
-  const glm::vec3 low = lines.bounds.low, size = lines.bounds.size();
-  lines.step = std::max(size.x, size.z) / static_cast<float>(along);
-  lines.width = std::max(1, static_cast<int>(size.x / lines.step + 1e-3F));
-  lines.depth = std::max(1, static_cast<int>(size.z / lines.step + 1e-3F));
-  for (int j = 0; j < lines.depth; ++j) {
-    for (int i = 0; i < lines.width; ++i) {
-      lines.x.push_back(low.x + (static_cast<float>(i) + 0.5F) * lines.step);
-      lines.z.push_back(low.z + (static_cast<float>(j) + 0.5F) * lines.step);
-    }
+  GroundLines lines = squares(source, along);
+  lines.parts = ground_parts(source, lines);
+  return lines;
+}
+
+GroundLines random_lines(const TerrainSource& source, int along, std::uint64_t seed) {
+  GroundLines lines = squares(source, along);
+  SplitMix random(seed);
+  const float most = 0.99F * lines.step;  // rounding keeps them within the ground
+  for (std::vector<float>* const places : {&lines.x, &lines.z}) {
+    for (float& place : *places) place += static_cast<float>(unit_of(random.next()) - 0.5) * most;
   }
-  lines.parts = in_rows(lines.depth, [&](int j, LineParts& out) {
-    for (int i = 0; i < lines.width; ++i) {
-      const std::size_t c = lines.index(i, j);
-      if (source.solid) {
-        sample_solid(*source.solid, lines.x[c], lines.z[c], lines.step, out);
-        continue;
-      }
-      const float height = source.heights->sample(lines.x[c], lines.z[c]);
-      if (height > low.y) out.add({low.y, height});
-      out.end_line();
-    }
-  });
+  lines.parts = ground_parts(source, lines);
   return lines;
 }
 
@@ -300,6 +351,13 @@ LineParts lines_of(const Representation& built, const GroundLines& at) {
       out.end_line();
     }
   });
+}
+
+VolumeErrors volume_errors(const Representation& built, const GroundLines& ground) {
+  const LineParts parts = lines_of(built, ground);
+  const auto error = [](const LineParts& a, const LineParts& b) { return 1 - iou(a, b).value_or(1); };
+  const float low = ground.bounds.low.y;
+  return {error(ground.parts, parts), error(all_cavities(ground.parts, low), all_cavities(parts, low))};
 }
 
 Differences top_and_volume_differences(const Representation& built, const TerrainSource& source,

@@ -3,7 +3,7 @@
 //
 // The ground is sampled along vertical lines on a square lattice with a prime number of lines, so that they
 // meet the sample points of no structure throughout. A solid's lines are sampled at four points per distance
-// of two lines; those of heights have one exact span.
+// of two lines, and at 16 more between two that differ; those of heights have one exact span.
 #pragma once
 
 #include <algorithm>
@@ -52,6 +52,9 @@ struct GroundLines {
 
 // `along` lines on the longer side. O(lines · height / step), parallel, the same for any number of threads.
 GroundLines ground_lines(const TerrainSource&, int along);
+// The same with each line at a random place of its square, so that no structure whose columns are searched
+// can coincide with them: for volumes.
+GroundLines random_lines(const TerrainSource&, int along, std::uint64_t seed);
 // The representation's spans on the same lines, cut to the ground's bounds.
 LineParts lines_of(const Representation&, const GroundLines&);
 
@@ -77,6 +80,12 @@ struct Differences {
 Differences differences(const Representation&, const TerrainSource&, const GroundLines&, float margin);
 // Only those of tops and volumes, which cost much less.
 Differences top_and_volume_differences(const Representation&, const TerrainSource&, const GroundLines&);
+// What representation and ground do not share, 1 - IoU: of their volumes, and of the air under overhangs of
+// either. 0 if neither has any.
+struct VolumeErrors {
+  double volume = 0, air = 0;
+};
+VolumeErrors volume_errors(const Representation&, const GroundLines&);
 
 // The parts of differences(), for tests.
 double overlap(std::span<const Part>, std::span<const Part>);  // metres

@@ -18,19 +18,22 @@ namespace {
 const std::array kSpecs{
     ParameterSpec{"representation", std::string("heightmap"), "",
                   "a name of `terrabench list representations`"},
-    ParameterSpec{"error", 0.0, "",
-                  "of the ground's relief: the RMSE of the tops for which the type is tuned; 0: not tuned", 0,
-                  1},
+    ParameterSpec{
+        "error", 0.0, "",
+        "for which the type is tuned: RMSE of the tops as a share of the ground's relief; of a solid "
+        "the share of the volume that differs; 0: not tuned",
+        0, 1},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the fractal ground, 2^n + 1", 3, 8193},
     ParameterSpec{"resolution", std::int64_t{64}, "columns", "along solid ground", 2, 4096},
     ParameterSpec{"lines", std::int64_t{101}, "", "along the ground, on which volumes are compared", 2, 4001},
     ParameterSpec{"rays", std::int64_t{8192}, "", "of each kind", 1, 1 << 24},
 };
 
-constexpr double kRankedError = 0.02;  // at which types are ranked, and the only one in quick
-// Of the relief. A cliff or the lip of an overhang lies somewhere between two columns, so that few types come
-// within 0.5 % of a solid's top.
-constexpr std::array kErrorsOfHeights{0.001, 0.005, kRankedError}, kErrorsOfSolids{0.01, kRankedError, 0.05};
+// Of the relief; of the volume, and twenty times as much of the air under overhangs (setting_search.h). Types
+// are ranked at one of them, which a grounded heightmap tree reaches on ground made of events and above which
+// it has no coarser samples.
+constexpr std::array kErrorsOfHeights{0.001, 0.005, 0.02}, kErrorsOfSolids{0.005, 0.01, 0.02};
+double ranked_error(bool solid) { return solid ? kErrorsOfSolids[0] : kErrorsOfHeights[2]; }
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than
 // 0.87 cells away, so that cells sampled at their centres keep a core as air.
 constexpr float kMargin = 1;
@@ -40,7 +43,7 @@ std::vector<Case> cases(const RunOptions& options) {
   std::vector<Case> cases;
   for (const std::string& terrain : compared_scenes(options)) {
     const std::int64_t resolution = solid_resolution(terrain, paper);
-    const auto& errors = is_solid(terrain) ? kErrorsOfSolids : kErrorsOfHeights;
+    const bool solid = is_solid(terrain);
     for (const RepresentationType& type : representations()) {
       const auto add = [&](const std::string& suffix, double error) {
         cases.push_back({fmt::format("{}/{}{}", terrain, type.name, suffix),
@@ -54,8 +57,9 @@ std::vector<Case> cases(const RunOptions& options) {
                          terrain});
       };
       add("", 0);
-      for (const double error : errors) {
-        if (paper || error == kRankedError) add(fmt::format("/rmse={:g}%", 100 * error), error);
+      for (const double error : solid ? kErrorsOfSolids : kErrorsOfHeights) {
+        if (!paper && error != ranked_error(solid)) continue;
+        add(fmt::format("/{}={:g}%", solid ? "volume" : "rmse", 100 * error), error);
       }
     }
   }
@@ -92,7 +96,6 @@ void record(const Differences& found, const TerrainSource& source, Recorder& rec
   recorder.add("cavities", "m³", found.cavities);
   recorder.add("cores", "m³", found.cores);
   recorder.add_ratio("cavities_lost", found.cavities_filled, found.cavities, "the ground has no cavities");
-  if (found.cavities > 0) recorder.add("cavities_kept", "", 1 - found.cavities_filled / found.cavities);
   recorder.add_ratio("cores_lost", found.cores_filled, found.cores, "no cavity is deep enough for a core");
 }
 
@@ -103,7 +106,13 @@ void measure_costs(const Scene& scene, const RepresentationType& type, const Par
   const auto built = measure_build(scene, type, parameters, recorder, samples, progress);
   measure_file(scene, type, *built, recorder, samples);
   measure_queries(scene, *built, samples);
-  record(differences(*built, scene.source, scene.lines, kMargin * scene.cell), scene.source, recorder);
+  Differences found = differences(*built, scene.source, scene.lines, kMargin * scene.cell);
+  if (scene.source.solid) {
+    const VolumeErrors errors = volume_errors(*built, scene.random);
+    found.volume_iou = 1 - errors.volume;
+    recorder.add("air_iou", "", 1 - errors.air);
+  }
+  record(found, scene.source, recorder);
   if (rays == 0) return samples.take(recorder);
   const TriangleMesh mesh = measure_mesh(*built, recorder, samples);
   measure_rays(scene, *built, mesh, rays, recorder, samples);
@@ -113,18 +122,18 @@ void measure_costs(const Scene& scene, const RepresentationType& type, const Par
 
 void measure_at_error(const Scene& scene, const RepresentationType& type, double share, int rays,
                       Recorder& recorder, Progress& progress) {
-  const double relief = relief_of(scene), asked = share * relief;
-  if (relief == 0) {
+  const double unit = scene.source.solid ? 1 : relief_of(scene), asked = share * unit;
+  if (unit == 0) {
     return recorder.undefined({"same_error", "least_of_relief", "of_asked"},
                               "the ground is flat: an error has no share of its relief");
   }
   SettingSearch search(scene, type, progress);
   const std::optional<FoundSetting> chosen = search.for_error(asked);
-  const double used = chosen ? chosen->trial.rmse / asked : 0;
+  const double used = chosen ? chosen->trial.error / asked : 0;
   recorder.add("same_error", "", used >= kLeastOfError ? 1 : 0);
   if (const auto trials = search.trials(); !trials.empty()) {
-    const Trial& best = *std::ranges::min_element(trials, {}, &Trial::rmse);
-    recorder.add("least_of_relief", "", best.rmse / relief);
+    const Trial& best = *std::ranges::min_element(trials, {}, &Trial::error);
+    recorder.add(scene.source.solid ? "least_error" : "least_of_relief", "", best.error / unit);
   }
   if (!chosen) return;
   if (chosen->trial.setting > 0) recorder.add("setting", "", chosen->trial.setting);
@@ -141,7 +150,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const double error = at.parameters.number("error");
   const int rays = at.integer("rays");
   if (error == 0) return measure_costs(ground, type, ground.parameters(type), rays, recorder, progress);
-  measure_at_error(ground, type, error, error == kRankedError ? rays : 0, recorder, progress);
+  const bool ranked = error == ranked_error(ground.source.solid.has_value());
+  measure_at_error(ground, type, error, ranked ? rays : 0, recorder, progress);
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ const Scene& scene(const SceneOptions& options, Progress& progress) {
   made->options = options;
   made->source = open(options);
   made->lines = ground_lines(made->source, options.lines);
+  if (made->source.solid) made->random = random_lines(made->source, options.lines, options.seed);
   const glm::vec3 size = made->source.bounds().size();
   made->cell = made->source.heights
                    ? std::max(made->source.heights->cell_x, made->source.heights->cell_z)

@@ -29,6 +29,7 @@ struct Scene {
   SceneOptions options;
   TerrainSource source;
   GroundLines lines;
+  GroundLines random;               // random_lines() of a solid
   std::size_t heightmap_bytes = 0;  // of the ground as a heightmap in memory, at the scene's resolution
   float cell = 1;                   // metres between columns at that resolution
 
