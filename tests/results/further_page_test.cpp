@@ -156,7 +156,7 @@ TEST_F(FurtherPageTest, WarnsInTheLatexBundleToo) {
   add(record, "lost_columns", "", {250});
   add(record, "rmse", "m", {3});
   store_.append(record);
-  Record named = fake_record(run_, "cross.representations", "caves/ght/rmse=5%");
+  Record named = fake_record(run_, "cross.representations", "caves/ght/volume=0.5%");
   add(named, "columns", "", {900});
   add(named, "lost_columns", "", {100});
   add(named, "rmse", "m", {3});
