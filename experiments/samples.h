@@ -20,7 +20,7 @@ inline constexpr int kSamples = kFewestSamples;
 // `longest` seconds. Two to five samples would give no interval, and take longer than one.
 class Repetitions {
  public:
-  explicit Repetitions(double longest = 60) : longest_(longest) {}
+  explicit Repetitions(double longest = 10) : longest_(longest) {}
   bool more() const { return taken_ < wanted_; }
   void add(double seconds) {
     if (++taken_ == 1 && seconds > longest_) wanted_ = 1;

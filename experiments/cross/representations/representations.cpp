@@ -129,15 +129,14 @@ void measure_at_error(const Scene& scene, const RepresentationType& type, double
   }
   SettingSearch search(scene, type, progress);
   const std::optional<FoundSetting> chosen = search.for_error(asked);
-  const double used = chosen ? chosen->trial.error / asked : 0;
-  recorder.add("same_error", "", used >= kLeastOfError ? 1 : 0);
+  recorder.add("same_error", "", chosen ? 1 : 0);
   if (const auto trials = search.trials(); !trials.empty()) {
     const Trial& best = *std::ranges::min_element(trials, {}, &Trial::error);
     recorder.add(scene.source.solid ? "least_error" : "least_of_relief", "", best.error / unit);
   }
   if (!chosen) return;
   if (chosen->trial.setting > 0) recorder.add("setting", "", chosen->trial.setting);
-  recorder.add("of_asked", "", used);
+  recorder.add("of_asked", "", chosen->trial.error / asked);
   measure_costs(scene, type, chosen->parameters, rays, recorder, progress);
 }
 
