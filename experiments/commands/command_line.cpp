@@ -277,7 +277,8 @@ void check_command(const CLI::App& app, std::span<char*> arguments) {
 
 ExitCode help_command(const CLI::App& app, const std::string& command) {
   if (command.empty()) {
-    fmt::print("{}", app.help());
+    // app.help() would describe the command that was given: this one.
+    fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
     return ExitCode::kGood;
   }
   const std::vector<std::string_view> known = names_of_commands(app);

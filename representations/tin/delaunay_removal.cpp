@@ -1,5 +1,6 @@
 // Taking vertices out of a Delaunay triangulation, and closing the gaps in its arrays.
 #include <algorithm>
+#include <cassert>
 #include <functional>
 
 #include "representations/tin/circles.h"
@@ -43,6 +44,7 @@ void Delaunay::remove(std::uint32_t v, std::uint32_t triangle, std::vector<std::
   while (ring.size() >= 3) {
     std::size_t first = 0;
     while (ring.size() > 3 && !is_ear(ring, first)) ++first;
+    assert(first < ring.size());  // a polygon without an ear is none
     const std::size_t second = (first + 1) % ring.size(), third = (first + 2) % ring.size();
     const std::uint32_t t = star.back();
     star.pop_back();

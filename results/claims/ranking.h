@@ -28,8 +28,9 @@ struct Ranking {
   const RankingLayout* layout = nullptr;
   std::vector<Place> places;
   bool timed = false;
-  std::size_t tied = 1;      // places that are not behind the best: the best, those tied with it, and those
-                             // of which this is undecided
+  // The best, and the places after it that are tied with it or of which this is undecided. The first place
+  // that is behind ends them: those after it have worse medians.
+  std::size_t tied = 1;
   bool undecided = false;    // whether there are any of the last
   bool too_few = false;      // and since a time was taken fewer than kFewestSamples times
   std::string not_compared;  // the reason, as words after "as"; empty: they are comparable

@@ -34,7 +34,9 @@ Cell cell_of(const Ranking& ranking) {
     cell.style = "undecided";
   } else if (best.size() > 1) {
     cell.style = "tied";
-  } else if (ranking.places.size() > 1) {
+  } else if (ranking.places.size() == 1) {
+    cell.text += " (alone)";
+  } else {
     cell.text += fmt::format(" {} ×", format_number(ranking.places[1].factor.median));
   }
   cell.link = ground_page(ranking.layout->ground) + ".*";

@@ -1,4 +1,4 @@
-// The terrains that have a name: real ones read in place from packages, and generated ones.
+// The terrains that have a name: real ones from packages or inside the program, and generated ones.
 #include "terrain/sources/catalogue.h"
 
 #include <fmt/format.h>

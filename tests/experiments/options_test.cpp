@@ -120,7 +120,8 @@ TEST_F(Options, AnUnknownCommandIsNamed) {
   expect("nonsense --help", 2, "unknown command 'nonsense'");
   expect("--allow-network redner", 2, "did you mean 'render'?");
   expect("help nonsense", 2, "unknown command 'nonsense'");
-  expect("help", 0, "Examples:");
+  expect("help", 0, "Write tables, plots and a web page");
+  expect("help represent", 0, "Examples:");
   expect("help run", 0, "--shard");
   expect("run --help", 0, "--shard");
   EXPECT_EQ(call("$T version").text, call("$T --version").text);

@@ -59,7 +59,7 @@ void use(const RepresentationType& type, Representation& structure) {
   if (saved(*type.load(again)) != first || again.left() != 0) std::abort();
 }
 
-// A ridge under events of all kinds.
+// A ridge under faults and a tunnel.
 TerrainSource sculpted() {
   using namespace events;
   constexpr int kSide = 33;
@@ -76,8 +76,17 @@ TerrainSource sculpted() {
   source.events = std::make_shared<const Sculpture>(
       Sculpture{field,
                 {DipFault{false, {12, 25}, {20, 25}, 4, 1, 60}, tunnel, LateralFault{{13, 6}, {18, 8}, 3, 2},
-                 DipFault{true, {13, 10}, {18, 10}, 2, 1, 50}, RadialErosion{{16, 20, 29}, {3, 2, 3}},
-                 LinearErosion{{15, 28}, {18, 30}, 1, 40}}});
+                 DipFault{true, {13, 10}, {18, 10}, 2, 1, 50}}});
+  return source;
+}
+
+// A plain under both kinds of erosion.
+TerrainSource eroded() {
+  using namespace events;
+  const Heightfield field{18, 18, 1, 1, std::vector<float>(18 * 18, 10), {}};
+  TerrainSource source = source_of("eroded", field);
+  source.events = std::make_shared<const Sculpture>(
+      Sculpture{field, {LinearErosion{{7, 7}, {10, 9}, 1, 40}, RadialErosion{{9, 10, 9}, {4, 3, 3}}}});
   return source;
 }
 
@@ -123,13 +132,13 @@ FuzzSeeds fuzz_seeds() {
   for (int i = 0; i < 24 * 26; ++i) {
     holes.heights->heights.push_back(i % 41 == 17 ? Heightfield::kNoData : static_cast<float>(i * 7919 % 97));
   }
-  TerrainSource events = sculpted();
+  TerrainSource events = sculpted(), erosions = eroded();
   FuzzSeeds seeds;
   Progress progress;
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   for (std::size_t t = 0; t < representations().size(); ++t) {
     const RepresentationType& type = representations()[t];
-    for (const TerrainSource* source : {&boxes, &heights, &holes, &events, &model}) {
+    for (const TerrainSource* source : {&boxes, &heights, &holes, &events, &erosions, &model}) {
       Parameters parameters(type.parameters);
       parameters.set("resolution", std::int64_t{source == &boxes ? 40 : source == &model ? 8 : 0});
       for (const char* name : {"w", "tau"}) {

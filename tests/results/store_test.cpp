@@ -313,5 +313,17 @@ TEST_F(StoreTest, FigureIsTheNewestWithoutOverriddenParameters) {
   EXPECT_EQ(store.find_figure("p.F2", "quick").first, nullptr);
 }
 
+TEST_F(StoreTest, FindsProvenanceAlteredByHand) {
+  write_two(folder_);
+  edit(file(), "\"git_dirty\":false", "\"git_dirty\":true");
+  EXPECT_FALSE(Store::open(folder_).faults().empty());
+}
+
+TEST_F(StoreTest, LastLineThatIsNoRecordIsAFault) {
+  write_two(folder_);
+  write_file(file(), content() + "{\"kind\":\"record\"}");
+  ASSERT_EQ(Store(folder_).faults().size(), 1U);
+}
+
 }  // namespace
 }  // namespace terrabench

@@ -97,5 +97,14 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
   EXPECT_THAT(text, HasSubstr("[CSV](a.csv)"));
 }
 
+TEST(TableTest, LatexIsBooktabsAndEscaped) {
+  const std::string text = latex(awkward());
+  EXPECT_THAT(text, HasSubstr("\\toprule"));
+  EXPECT_THAT(text, HasSubstr("\\begin{longtable}{@{}lr@{}}"));
+  EXPECT_THAT(text, HasSubstr("50 \\% of \\$x\\_1\\$"));
+  EXPECT_THAT(text, HasSubstr("\\# \\{4\\} \\textasciitilde{}\\textasciicircum{}\\textbackslash{}"));
+  EXPECT_EQ(escape_latex("64³ × 2"), "64\\textsuperscript{3} $\\times$ 2");
+}
+
 }  // namespace
 }  // namespace terrabench

@@ -29,9 +29,9 @@ const std::array kSpecs{
     ParameterSpec{"rays", std::int64_t{8192}, "", "of each kind", 1, 1 << 24},
 };
 
-// Of the relief; of the volume, and twenty times as much of the air under overhangs (setting_search.h). Types
-// are ranked at one of them, which a grounded heightmap tree reaches on ground made of events and above which
-// it has no coarser samples.
+// Of the relief; of the volume, and twenty times as much of the air under overhangs (setting_search.h).
+// Heights are ranked at the largest error, since drills reach no smaller one, solids at the smallest, at
+// which none of them fills a tunnel.
 constexpr std::array kErrorsOfHeights{0.001, 0.005, 0.02}, kErrorsOfSolids{0.005, 0.01, 0.02};
 double ranked_error(bool solid) { return solid ? kErrorsOfSolids[0] : kErrorsOfHeights[2]; }
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than

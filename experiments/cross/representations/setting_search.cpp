@@ -80,7 +80,7 @@ std::optional<FoundSetting> SettingSearch::drills_for_error(double most) {
 
 std::optional<FoundSetting> SettingSearch::coarsest_for_error(const Knob& knob, double most) {
   std::optional<FoundSetting> best;
-  const Tuned tuned = search_knob(knob, most, [&](double value) {
+  search_knob(knob, most, [&](double value) {
     Parameters parameters = parameters_;
     if (knob.name == "max_error") {
       parameters.set(knob.name, value / kErrorSteps * relief_of(scene_));
@@ -93,7 +93,7 @@ std::optional<FoundSetting> SettingSearch::coarsest_for_error(const Knob& knob, 
       best = FoundSetting{parameters, *trial};
     return trial->error;
   });
-  return tuned.reached ? best : std::nullopt;
+  return best;
 }
 
 std::optional<FoundSetting> SettingSearch::for_error(double most) {

@@ -40,8 +40,8 @@ class SettingSearch {
   SettingSearch(const Scene&, const RepresentationType&, Progress&);
 
   // The coarsest setting found whose error is at most `most`, which is above 0; nothing if the finest setting
-  // exceeds it, or the coarsest stays below. Settings come in steps, so that a type may stay below the error,
-  // at its own expense. About eight builds. Drills that cannot are tried once more for
+  // exceeds it. Settings come in steps and have an end, so that a type may stay below the error, at its own
+  // expense. About eight builds. Drills that cannot are tried once more for
   // their least error.
   std::optional<FoundSetting> for_error(double most);
 
