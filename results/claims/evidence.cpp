@@ -46,9 +46,11 @@ Summary ratio_of(const Quantity& a, const Quantity& b) {
 }
 
 // Whether one is below the next. Two times or rates are compared by relation(), all else by the medians:
-// shares and ratios of times that were taken in turn, too, from which the speed of the machine cancels out.
+// shares and ratios of times that were taken in turn, too, from which the speed of the machine cancels out,
+// and exponents, which are fitted to the times of several sizes and have no samples of their own.
 ChainStep below(const Quantity& a, const Quantity& b, double median_a, double median_b) {
-  if (!is_timing(a.unit) || !is_timing(b.unit)) return {median_a < median_b, std::nullopt};
+  const auto sampled = [](const Quantity& q) { return is_timing(q.unit) && q.unit != "exponent"; };
+  if (!sampled(a) || !sampled(b)) return {median_a < median_b, std::nullopt};
   const Summary ratio = three_digits(ratio_of(b, a));
   return {relation(ratio, true) == Relation::kMore, ratio};
 }
