@@ -115,6 +115,8 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   const Candidate& best = all[0];
   ranking.timed = timed(*best.metric);
   if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, ranking.timed, store);
+  if (!layout.most && best.median == 0 && all.back().median != 0 && ranking.not_compared.empty())
+    ranking.not_compared = fmt::format("{} has 0, of which nothing is a multiple", best.entry->label);
   for (const Candidate& c : all) {
     ranking.places.push_back({c.entry->label, c.median, factor_between(best, c, layout.most)});
     if (std::ranges::count(ranking.runs, c.record->run) == 0) ranking.runs.push_back(c.record->run);

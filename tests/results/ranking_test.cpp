@@ -284,6 +284,13 @@ TEST_F(RankingTest, OneMethodAloneIsNoFinding) {
   EXPECT_THROW(paper_of("[[ranking]]\nid = \"x\"\n"), Error);
 }
 
+TEST_F(RankingTest, NothingIsAMultipleOfZero) {
+  measure("hill/a", {0, 0, 0});
+  measure("hill/b", {0.013, 0.013, 0.013});
+  EXPECT_THAT(sentence(), HasSubstr("not compared, as drills has 0"));
+  EXPECT_FALSE(rank(layouts_.at(0), store_, "quick")->decided());
+}
+
 // A row per question, a column per ground, who is best in each cell, and on how many grounds.
 TEST_F(RankingTest, ATableOfFindingsHasARowPerQuestionAndAColumnPerGround) {
   const auto tables = [&] { return findings_tables(rank(layouts_, store_, "quick")); };
@@ -330,7 +337,7 @@ TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
     if (layout.ground.empty()) continue;
     EXPECT_TRUE(cells.insert(layout.table + "/" + layout.question + "/" + layout.ground).second) << layout.id;
   }
-  EXPECT_EQ(ids.size(), 88U);
+  EXPECT_EQ(ids.size(), 91U);
 }
 
 TEST_F(RankingTest, StandOnTheReportsFirstPage) {
