@@ -17,11 +17,6 @@ namespace terrabench {
 namespace {
 
 constexpr GrowthTheory kPerColumn{};
-// On ground of one kind the vertices that an error needs are in proportion to the samples. Insertion scans
-// each sample about once per halving of the error, O(n log n); edits and queries meet a few triangles of a
-// size that the ground decides. Neither holds for every ground: a plane is two triangles, which any edit
-// scans whole.
-constexpr GrowthTheory kPerVertex = kPerColumn;
 // A solid with n columns has n^1.5 voxels and n^0.5 levels per column; a ray crosses n^0.5 columns. Building
 // samples every voxel. A query reads the runs of a stack's column alone, but voxels level by level.
 constexpr double kVoxels = 1.5, kLevels = 0.5;
@@ -141,7 +136,7 @@ std::vector<RepresentationType>& table() {
        Tin::build,
        Tin::load,
        Tin::decode,
-       kPerVertex,
+       {},
        {},
        kTinKnobs},
       {"procedural_mesh",
