@@ -111,9 +111,10 @@ bool gives_all(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
 }
 
 void record_error(const std::vector<Outcome>& outcomes, std::string_view prefix, const ErrorOf& error,
-                  Recorder& recorder) {
+                  Recorder& recorder, std::initializer_list<std::string_view> unread) {
   const auto add = [&](std::string_view what, double value) {
-    recorder.add(fmt::format("{}{}", prefix, what), "", value);
+    if (std::ranges::find(unread, what) == unread.end())
+      recorder.add(fmt::format("{}{}", prefix, what), "", value);
   };
   const double infinite = count(outcomes, error, [](double e) { return !std::isfinite(e); });
   if (infinite > 0) return add("infinite_sets", infinite);

@@ -39,8 +39,9 @@ bool gives_all(const std::vector<Outcome>& outcomes, const ErrorOf& error);
 
 // What every table of an error shows: the least, how many sets and what share of the good ones lie in the
 // paper's range, how many lie above 1, the mean at each τ, in how many cases it rises, and the main effects.
-// Where an error is infinite, that is recorded in place of them. Names of metrics begin with `prefix`.
+// Where an error is infinite, that is recorded in place of them. Names of metrics begin with `prefix`;
+// `unread`: those that no table or claim of the caller reads.
 void record_error(const std::vector<Outcome>& outcomes, std::string_view prefix, const ErrorOf& error,
-                  Recorder& recorder);
+                  Recorder& recorder, std::initializer_list<std::string_view> unread = {});
 
 }  // namespace terrabench::drill

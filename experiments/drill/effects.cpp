@@ -23,8 +23,8 @@ bool finite(const std::vector<Outcome>& outcomes, const ErrorOf& error) {
 }
 
 void record_sets(const std::vector<Outcome>& outcomes, const std::string& prefix, const ErrorOf& error,
-                 Recorder& recorder) {
-  record_error(outcomes, prefix, error, recorder);
+                 Recorder& recorder, std::initializer_list<std::string_view> unread = {}) {
+  record_error(outcomes, prefix, error, recorder, unread);
   if (finite(outcomes, error))
     recorder.add(prefix + "good_sets", "", without_outliers(outcomes, error).size());
 }
@@ -59,14 +59,14 @@ void measure(const Case& test_case, const RunOptions& options, Recorder& recorde
   const Variant& variant = variant_of(test_case.parameters);
   const std::vector<Outcome> outcomes = factorial_of(source, variant, progress);
 
-  record_sets(outcomes, "rmse_", kRmse, recorder);
+  record_sets(outcomes, "rmse_", kRmse, recorder, {"sets_above_1"});
   record_best(outcomes, "rmse_", kRmse, recorder);
   record_best(outcomes, "ahd_mean_plane_", kPlaneAhd, recorder);
-  for (const auto& [prefix, error] :
-       {std::pair("ahd_mean_plane_", kPlaneAhd), {"ahd_mean_space_samples_", kSpaceAhd}}) {
-    record_sets(outcomes, prefix, error, recorder);
-    recorder.add(fmt::format("{}distinct", prefix), "", distinct(outcomes, error));
-  }
+  record_sets(outcomes, "ahd_mean_plane_", kPlaneAhd, recorder);
+  record_sets(outcomes, "ahd_mean_space_samples_", kSpaceAhd, recorder,
+              {"least", "good_in_range", "cases_rising_with_tau"});
+  recorder.add("ahd_mean_plane_distinct", "", distinct(outcomes, kPlaneAhd));
+  recorder.add("ahd_mean_space_samples_distinct", "", distinct(outcomes, kSpaceAhd));
   std::size_t complete = 0;
   for (std::size_t r = 0; r < kReadings.size(); ++r) complete += gives_all(outcomes, ahd(r));
   recorder.add("readings_that_give_all", "", static_cast<double>(complete));
