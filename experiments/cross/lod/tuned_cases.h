@@ -14,8 +14,8 @@ namespace terrabench::cross {
 // method, options, error, path, frames, size.
 extern const std::array<ParameterSpec, 6> kTunedSpecs;
 
-// The name of the camera path that suits a ground: over wide ground, `fly`, as high as the width implies, would
-// not resolve the samples.
+// The name of the camera path that suits a ground: over wide ground, `fly`, as high as the width implies,
+// would not resolve the samples.
 std::string path_over(std::string_view terrain);
 // A case on a ground, along the path that suits it; `specs` must contain path, frames and size. Generated
 // grounds have 257² samples, in the paper profile 1025²; 12 frames are metered, or 24.
