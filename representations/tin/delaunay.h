@@ -90,7 +90,7 @@ class Delaunay {
 
   void reserve(std::size_t vertices);
   // Room for one insert() at least, growing by a 64th instead of doubling: an edited triangulation keeps its
-  // slack. Moving the arrays then takes O(1) per vertex in the mean, but O(vertices) at once.
+  // slack. Moving the arrays then takes amortised O(1) per vertex, O(vertices) at worst.
   void make_room();
   // The former index of each vertex and triangle.
   struct Former {

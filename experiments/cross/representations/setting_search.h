@@ -20,7 +20,7 @@
 
 namespace terrabench::cross {
 
-// By which the error of the air under overhangs may exceed that of the volume.
+// Allowed error of the air under overhangs ÷ allowed error of the volume.
 inline constexpr double kAirError = 20;
 
 struct Trial {
