@@ -169,26 +169,13 @@ class Variation {
  public:
   Variation(const std::vector<FileKnob>& knobs, std::uint64_t seed) : knobs_(knobs), random_(seed) {}
 
-  // Near one of the best files.
-  Setting vary(const std::vector<const Made*>& best) {
-    Setting at = best[static_cast<std::size_t>(share() * static_cast<double>(best.size()))]->at;
-    disturb(at, 0.15);
-    return at;
-  }
-
-  // Near the one whose error is nearest to `aim`, finer or coarser by what it misses. Files far below it,
-  // such as those without error, say little about the settings.
-  Setting aim(std::vector<const Made*> best, FileError error, double aim) {
-    const auto miss = [&](const Made* made) {
-      return std::log(aim / std::max(made->file.*error, 1e-3 * aim));
-    };
-    const auto far = [&](const Made* made) { return miss(made) > 2; };
-    if (!std::ranges::all_of(best, far)) std::erase_if(best, far);
-    const Made* nearest =
-        *std::ranges::min_element(best, {}, [&](const Made* m) { return std::abs(miss(m)); });
-    const double coarser = miss(nearest) - 0.02;
+  // The one of the best files that is nearest to the aim, made finer or coarser by what it misses.
+  Setting aim(std::vector<const Made*> best, const FileAim& aim) {
+    const auto [nearest, coarser] =
+        aim.of == FileAim::kBytes ? towards_bytes(best, aim) : towards_error(best, aim);
     Setting at = nearest->at;
-    if (coarser > -0.02 && coarser < 0.05) disturb(at, 0.05);  // near enough: vary the other settings
+    const bool near_enough = coarser > -0.02 && coarser < 0.05;
+    if (near_enough || share() < 0.3) disturb(at, 0.3 * std::pow(0.05, share()));
     const auto move = [&](double& x, double log_range, double by) {
       x = std::clamp(x + by / log_range, 0.0, 1.0);
     };
@@ -202,6 +189,39 @@ class Variation {
   }
 
  private:
+  struct Step {
+    const Made* nearest;
+    double coarser;  // log of the factor of errors
+  };
+
+  // Files far below the error, such as those without any, say little about the settings.
+  static Step towards_error(std::vector<const Made*>& best, const FileAim& aim) {
+    const auto miss = [&](const Made* made) {
+      return std::log(aim.most / std::max(made->file.*aim.error, 1e-3 * aim.most));
+    };
+    const auto far = [&](const Made* made) { return miss(made) > 2; };
+    if (!std::ranges::all_of(best, far)) std::erase_if(best, far);
+    const Made* const nearest =
+        *std::ranges::min_element(best, {}, [&](const Made* m) { return std::abs(miss(m)); });
+    return {nearest, miss(nearest) - 0.02};
+  }
+
+  // By as much error, for the bytes that are missed, as lies between two neighbours around the aim.
+  static Step towards_bytes(const std::vector<const Made*>& best, const FileAim& aim) {
+    const auto miss = [&](const Made* made) {
+      return std::log(aim.most / static_cast<double>(made->file.bytes));
+    };
+    const auto nearest = std::ranges::min_element(best, {}, [&](const Made* m) { return std::abs(miss(m)); });
+    const auto other = miss(*nearest) > 0 ? std::next(nearest) : nearest;  // the larger of the neighbours
+    double errors_by_bytes = 1;
+    if (other != best.begin() && other != best.end()) {
+      const BuiltFile &larger = (*other)->file, &smaller = (*std::prev(other))->file;
+      errors_by_bytes = std::log(smaller.*aim.error / std::max(larger.*aim.error, 1e-9)) /
+                        std::log(static_cast<double>(larger.bytes) / static_cast<double>(smaller.bytes));
+    }
+    return {*nearest, -std::clamp(errors_by_bytes, 0.3, 3.0) * (miss(*nearest) - 0.01)};
+  }
+
   double share() { return unit_of(random_.next()); }
   double normal() { return std::sqrt(-2 * std::log(1 - share())) * std::cos(2 * std::numbers::pi * share()); }
   void disturb(Setting& at, double spread) {
@@ -254,26 +274,27 @@ const BuiltFile* closest_within(const std::vector<BuiltFile>& files, FileError e
 }
 
 std::vector<BuiltFile> search_files(const Scene& scene, const RepresentationType& type, int builds,
-                                    std::span<const double> aims, Progress& progress) {
+                                    std::span<const FileAim> aims, Progress& progress) {
   Progress silent;  // each build is one step of the search
   const Search search(scene, type, silent);
   progress.begin(fmt::format("files of {}", type.name), static_cast<std::uint64_t>(builds));
-  const FileError error = scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error;
+  std::vector<FileAim> errors;
+  std::ranges::copy_if(aims, std::back_inserter(errors),
+                       [](FileAim aim) { return aim.of == FileAim::kError; });
   std::vector<Made> all;
   Variation variation(search.knobs(), scene.options.seed);
   for (std::size_t k = 0, aimed = 0; k < static_cast<std::size_t>(builds); ++k) {
     const auto next = [&]() -> Setting {
       const std::size_t evenly = (static_cast<std::size_t>(builds) + 3) / 4;
       if (k < evenly) return spread(k, 2 + search.knobs().size());
-      if (k < evenly + 2 * aims.size()) {
-        const double metres = search.metres(aims[(k - evenly) / 2]),
+      if (k < evenly + 2 * errors.size()) {
+        const double metres = search.metres(errors[(k - evenly) / 2].most),
                      built = (k - evenly) % 2 == 0 ? 0.05 : 0.6;
         return search.own((1 - built) * metres, built * metres);
       }
       if (all.empty()) return spread(k, 2 + search.knobs().size());
-      if (k % 2 == 0) return variation.aim(best(all, error), error, aims[aimed++ % aims.size()]);
-      // By turns for both errors, so that both curves are searched.
-      return variation.vary(best(all, k % 4 == 1 ? error : &BuiltFile::rmse));
+      const FileAim& aim = aims[aimed++ % aims.size()];
+      return variation.aim(best(all, aim.error), aim);
     };
     const Setting at = next();
     if (std::optional<BuiltFile> file = search.make(at)) all.push_back({at, std::move(*file)});

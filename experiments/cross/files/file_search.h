@@ -2,11 +2,10 @@
 //
 // One search with a number of builds, the same for all types. The settings are what RepresentationType::
 // file_knobs says, the resolution, and the error that encode() may add. A quarter of the builds spreads over
-// all settings evenly (Roberts 2018). For each error of interest two follow at the ground's own resolution
-// and the type's own settings, which give the error to encode() or to its knobs. Of the others, every second
-// varies a file that is among the best so far; the rest aim at an error of interest: the nearest of the best
-// files is made again, finer or coarser by the factor by which it misses. Every file is written, read back
-// and compared.
+// all settings evenly (Roberts 2018). For each error that is an aim two follow at the ground's own resolution
+// and the type's own settings, which give the error to encode() or to its knobs. The others take the
+// aims by turns: the nearest of the best files is made again, finer or coarser by the factor by which it
+// misses, some with all settings varied. Every file is written, read back and compared.
 #pragma once
 
 #include <memory>
@@ -37,10 +36,16 @@ std::vector<BuiltFile> best_files(std::vector<BuiltFile>, FileError);
 const BuiltFile* smallest_within(const std::vector<BuiltFile>&, FileError, double most);
 const BuiltFile* closest_within(const std::vector<BuiltFile>&, FileError, double most_bytes);
 
-// All files that were made; settings that the type refuses are builds without a file. `aims`: errors of
-// interest, largest errors in metres or, of a solid, shares of its volume. The same for every number of
-// threads.
+// The smallest file within an error, or the closest one within bytes.
+struct FileAim {
+  enum Of { kError, kBytes } of;
+  FileError error;
+  double most;  // of the error, or bytes
+};
+
+// All files that were made; settings that the type refuses are builds without a file. The same for every
+// number of threads.
 std::vector<BuiltFile> search_files(const Scene&, const RepresentationType&, int builds,
-                                    std::span<const double> aims, Progress&);
+                                    std::span<const FileAim> aims, Progress&);
 
 }  // namespace terrabench::cross

@@ -16,7 +16,7 @@ namespace {
 
 const std::array kSpecs{
     ParameterSpec{"share", 0.05, "", "of the ground's own bytes, for the file of each type", 1e-4, 1},
-    ParameterSpec{"builds", std::int64_t{60}, "", "of each type, to search its settings", 1, 100000},
+    ParameterSpec{"builds", std::int64_t{120}, "", "of each type, to search its settings", 1, 100000},
     ParameterSpec{"size", std::int64_t{257}, "samples", "side of the fractal ground, 2^n + 1", 3, 8193},
     ParameterSpec{"resolution", std::int64_t{64}, "columns", "along solid ground", 2, 4096},
     ParameterSpec{"lines", std::int64_t{400}, "", "along the ground: pixels of a map", 2, 4001},
@@ -37,7 +37,7 @@ std::vector<Case> cases(const RunOptions& options) {
     cases.push_back({terrain,
                      {kSpecs,
                       {{"size", std::int64_t{paper ? 513 : 257}},
-                       {"builds", std::int64_t{paper ? 60 : 16}},
+                       {"builds", std::int64_t{paper ? 120 : 24}},
                        {"resolution", std::int64_t{128}},
                        {"lines", std::int64_t{paper ? 400 : 200}},
                        {"compared", std::int64_t{paper ? 211 : 101}}}},
@@ -68,12 +68,12 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
            const GroundLines& compared, double most_bytes, int builds, Progress& progress) {
   Map map;
   map.type = &type;
-  // About what files of such sizes miss: of the relief, or of a solid's volume.
-  std::vector<double> aims{0.01, 0.02, 0.04, 0.08};
-  if (scene.source.heights) {
-    for (double& aim : aims) aim *= relief_of(scene);
-  }
-  const std::vector<BuiltFile> files = search_files(scene, type, builds, aims, progress);
+  // Within the bytes; and within about the error that such files have, where the type starts by itself.
+  const double error = scene.source.heights ? 0.03 * relief_of(scene) : 0.03;
+  const FileAim bytes{FileAim::kBytes, &BuiltFile::rmse, most_bytes},
+      errors{FileAim::kError, scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error, error};
+  const std::vector<BuiltFile> files =
+      search_files(scene, type, builds, std::array{bytes, bytes, errors}, progress);
   const BuiltFile* chosen = closest_within(files, &BuiltFile::rmse, most_bytes);
   map.fits = chosen != nullptr;
   const auto built =
