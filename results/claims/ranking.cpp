@@ -34,6 +34,13 @@ bool suits(const RankingLayout& layout, const Metric& needed) {
   return value >= layout.needs_low && value <= layout.needs_high;
 }
 
+bool need_measured(const RankingLayout& layout, const Store& store, const std::string& profile) {
+  return std::ranges::any_of(layout.entries, [&](const RankingLayout::Entry& entry) {
+    const Record* const record = store.find(layout.experiment, entry.case_name, profile);
+    return record != nullptr && record->find(for_row(layout.needs, entry)) != nullptr;
+  });
+}
+
 // The measured entries; those that lack what is needed are noted in `left_out`, an entry in a unit that
 // cannot be converted in `not_compared`.
 std::vector<Candidate> candidates(const RankingLayout& layout, const Store& store, const std::string& profile,
@@ -43,9 +50,8 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
     const Record* const record = store.find(layout.experiment, entry.case_name, profile);
     const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
     if (metric == nullptr) {
-      // Where a type does not reach the error of its case, nothing else is measured.
-      const Metric* const needed = record == nullptr ? nullptr : record->find(for_row(layout.needs, entry));
-      if (needed != nullptr && !suits(layout, *needed)) ranking.left_out.push_back(entry.label);
+      // Such as a type that does not reach the error of its case, or that cannot be edited.
+      if (record != nullptr) ranking.left_out.push_back(entry.label);
       continue;
     }
     const std::string fault = other_unit(layout, entry, *metric, all);
@@ -108,12 +114,15 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   ranking.layout = &layout;
   std::vector<Candidate> all = candidates(layout, store, profile, ranking);
   if (all.size() + ranking.left_out.size() < 2) return std::nullopt;
+  // That no entry has what is needed is an answer; that none has the metric says that nobody asked.
+  if (all.empty() && !need_measured(layout, store, profile)) return std::nullopt;
   if (all.empty()) return ranking;
   std::ranges::stable_sort(all, [&](const Candidate& a, const Candidate& b) {
     return layout.most ? a.median > b.median : a.median < b.median;
   });
   const Candidate& best = all[0];
   ranking.timed = timed(*best.metric);
+  ranking.margin = layout.margin > 0 ? layout.margin : margin_of(ranking.timed);
   if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, ranking.timed, store);
   if (!layout.most && best.median == 0 && all.back().median != 0 && ranking.not_compared.empty())
     ranking.not_compared = fmt::format("{} has 0, of which nothing is a multiple", best.entry->label);
@@ -123,7 +132,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   }
   for (ranking.tied = 1; ranking.tied < all.size(); ++ranking.tied) {
     const Summary& factor = ranking.places[ranking.tied].factor;
-    const Relation behind = relation(factor, ranking.timed);
+    const Relation behind = relation(factor, ranking.timed, ranking.margin);
     if (behind == Relation::kMore) break;
     ranking.undecided = ranking.undecided || behind != Relation::kTied;
     ranking.too_few = ranking.too_few || (ranking.timed && factor.count < kFewestSamples);

@@ -28,13 +28,14 @@ struct Ranking {
   const RankingLayout* layout = nullptr;
   std::vector<Place> places;
   bool timed = false;
+  double margin = 0;  // relation()
   // The best, and the places after it that are tied with it or of which this is undecided. The first place
   // that is behind ends them: those after it have worse medians.
   std::size_t tied = 1;
   bool undecided = false;             // whether there are any of the last
   bool too_few = false;               // and since a time was taken fewer than kFewestSamples times
   std::string not_compared;           // the reason, as words after "as"; empty: they are comparable
-  std::vector<std::string> left_out;  // labels of entries in another unit, or that lack what is needed
+  std::vector<std::string> left_out;  // labels of measured entries in another unit, or without what is needed
   std::vector<std::string> runs;
 
   // Whether there is a best method, or several tied.

@@ -169,14 +169,13 @@ Summary three_digits(const Summary& s) {
   return {s.count, three_digits(s.median), three_digits(s.low), three_digits(s.high)};
 }
 
-Relation relation(const Summary& ratio, bool timed) {
+Relation relation(const Summary& ratio, bool timed, double margin) {
   if (timed && ratio.count < kFewestSamples) return Relation::kUndecided;
-  const double least = margin_of(timed);
   const Summary up = three_digits(ratio),
                 down = three_digits({ratio.count, 1 / up.median, 1 / up.high, 1 / up.low});
-  if (up.low > 1 && up.median >= least) return Relation::kMore;
-  if (down.low > 1 && down.median >= least) return Relation::kLess;
-  return up.high < least && down.high < least ? Relation::kTied : Relation::kUndecided;
+  if (up.low > 1 && up.median >= margin) return Relation::kMore;
+  if (down.low > 1 && down.median >= margin) return Relation::kLess;
+  return up.high < margin && down.high < margin ? Relation::kTied : Relation::kUndecided;
 }
 
 bool is_timing(std::string_view unit) {

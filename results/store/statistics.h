@@ -65,7 +65,10 @@ enum class Relation {
 };
 // The one rule by which rankings, comparisons of runs and claims about the order of times decide. The figures
 // are rounded to three digits first, so that what is printed never contradicts it.
-Relation relation(const Summary& ratio, bool timed);
+Relation relation(const Summary& ratio, bool timed, double margin);
+inline Relation relation(const Summary& ratio, bool timed) {
+  return relation(ratio, timed, margin_of(timed));
+}
 
 // Whether a quantity of this unit varies from run to run (times, rates); all others are exact.
 bool is_timing(std::string_view unit);

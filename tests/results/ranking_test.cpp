@@ -182,7 +182,36 @@ entries = [
   ASSERT_EQ(ranking->places.size(), 2U) << "D was not measured";
   EXPECT_EQ(ranking->places[0].label, "B");
   EXPECT_EQ(ranking->places[1].label, "A");
-  EXPECT_EQ(ranking->left_out, std::vector<std::string>{"C"});
+  EXPECT_EQ(ranking->left_out, (std::vector<std::string>{"C", "D"}));
+}
+
+// A lead that two searches would not agree on is a tie; a method that was measured and has no value is named.
+TEST_F(RankingTest, ARankingMayNeedAWiderMargin) {
+  const auto ranked = [&](const char* margin) {
+    return rank(paper_of(fmt::format(R"(
+[[ranking]]
+id = "files"
+task = "Smallest"
+where = "on a hill"
+experiment = "x"
+metric = "bytes"
+unit = "B"
+best = "least"
+{}
+entries = [{{label = "A", case = "a"}}, {{label = "B", case = "b"}}, {{label = "C", case = "c"}}]
+)",
+                                     margin))
+                    .rankings.at(0),
+                store_, "quick");
+  };
+  for (const auto& [name, bytes] : {std::pair{"a", 100.0}, {"b", 105.0}, {"c", 0.0}}) {
+    Record record = fake_record(run_, "x", name);
+    if (bytes > 0) add(record, "bytes", "B", {bytes});
+    store_.append(record);
+  }
+  EXPECT_EQ(ranked("")->lead(), "1.05 ×");
+  EXPECT_EQ(ranked("margin = 1.1")->lead(), "tied, within 1.05 ×");
+  EXPECT_EQ(ranked("margin = 1.1")->left_out, std::vector<std::string>{"C"});
 }
 
 // Neither led nor tied: the interval holds the margin.
