@@ -216,7 +216,7 @@ RankingLayout parse_ranking(const TomlValue& node) {
   const std::string best = entry.text("best");
   if (best != "most" && best != "least") entry.refuse("'best' is either most or least");
   layout.most = best == "most";
-  if (entry.has("margin")) layout.margin = entry.get("margin").number("margin");
+  layout.searched = entry.flag("searched");
   if (entry.has("needs")) {
     TomlTable needs(entry.get("needs"));
     layout.needs = needs.text("metric");

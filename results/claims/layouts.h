@@ -86,7 +86,7 @@ struct RankingLayout {
   std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
   std::string unit;                // that values are shown in
   bool most = false;               // the best has the most, otherwise the least
-  double margin = 0;               // factor that makes a lead; 0: margin_of(), as the metric is timed or not
+  bool searched = false;           // the metric is of the best that a search found: kSearchMargin
   // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
   // says so: "of types that come close to that error".
   std::string needs, needs_text;

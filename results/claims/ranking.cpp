@@ -122,7 +122,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   });
   const Candidate& best = all[0];
   ranking.timed = timed(*best.metric);
-  ranking.margin = layout.margin > 0 ? layout.margin : margin_of(ranking.timed);
+  ranking.margin = layout.searched ? kSearchMargin : margin_of(ranking.timed);
   if (ranking.not_compared.empty()) ranking.not_compared = why_not_compared(all, ranking.timed, store);
   if (!layout.most && best.median == 0 && all.back().median != 0 && ranking.not_compared.empty())
     ranking.not_compared = fmt::format("{} has 0, of which nothing is a multiple", best.entry->label);

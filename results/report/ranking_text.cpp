@@ -73,7 +73,7 @@ std::string tie_rule() {
       "less between two runs on one machine, {} for the sizes and errors of files, since two searches with "
       "other seeds differ by as much, and {} for all else, since a smaller lead is no reason to choose a "
       "method. Factors are rounded to three digits first.",
-      kFewestSamples, kTimingMargin, 1.1, kExactMargin);
+      kFewestSamples, kTimingMargin, kSearchMargin, kExactMargin);
 }
 
 Facts findings(std::span<const Ranking> rankings) {

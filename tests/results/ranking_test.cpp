@@ -186,8 +186,8 @@ entries = [
 }
 
 // A lead that two searches would not agree on is a tie; a method that was measured and has no value is named.
-TEST_F(RankingTest, ARankingMayNeedAWiderMargin) {
-  const auto ranked = [&](const char* margin) {
+TEST_F(RankingTest, ALeadOfASearchNeedsAWiderMargin) {
+  const auto ranked = [&](const char* more) {
     return rank(paper_of(fmt::format(R"(
 [[ranking]]
 id = "files"
@@ -200,7 +200,7 @@ best = "least"
 {}
 entries = [{{label = "A", case = "a"}}, {{label = "B", case = "b"}}, {{label = "C", case = "c"}}]
 )",
-                                     margin))
+                                     more))
                     .rankings.at(0),
                 store_, "quick");
   };
@@ -210,8 +210,8 @@ entries = [{{label = "A", case = "a"}}, {{label = "B", case = "b"}}, {{label = "
     store_.append(record);
   }
   EXPECT_EQ(ranked("")->lead(), "1.05 ×");
-  EXPECT_EQ(ranked("margin = 1.1")->lead(), "tied, within 1.05 ×");
-  EXPECT_EQ(ranked("margin = 1.1")->left_out, std::vector<std::string>{"C"});
+  EXPECT_EQ(ranked("searched = true")->lead(), "tied, within 1.05 ×");
+  EXPECT_EQ(ranked("searched = true")->left_out, std::vector<std::string>{"C"});
 }
 
 // Neither led nor tied: the interval holds the margin.
