@@ -13,15 +13,16 @@
 
 #include "experiments/processes.h"
 #include "experiments/stopwatch.h"
+#include "experiments/time_left.h"
 #include "renderers/context.h"
 #include "renderers/raytrace/ray_index.h"
 #include "results/store/absences.h"
 #include "results/store/format.h"
-#include "results/store/glob.h"
 #include "results/store/provenance.h"
 #include "results/store/record_json.h"
 #include "results/store/statistics.h"
 #include "results/store/store.h"
+#include "terrain/duration.h"
 #include "terrain/files.h"
 #include "terrain/image.h"
 #include "terrain/machine_error.h"
@@ -57,16 +58,6 @@ std::vector<std::pair<std::string, Value>> values(const Parameters& parameters) 
   return out;
 }
 
-// Reports a missing file before anything is measured, not hours later.
-void check_terrain(const std::string& terrain) {
-  std::error_code error;
-  const std::string file = terrain_file(terrain);
-  const bool virtual_file = file.starts_with("/vsi") || file.starts_with('<');
-  if (!file.empty() && !virtual_file && !std::filesystem::exists(file, error)) {
-    throw bad_input("no such file", file, "check the path, or see `terrabench list terrains`");
-  }
-}
-
 // Reads the user's grounds once before anything is measured on them: says what their reader converted,
 // guessed or left out, and throws for one that cannot be read.
 void print_notes(const RunOptions& options) {
@@ -78,21 +69,6 @@ void print_notes(const RunOptions& options) {
         [&] { return fmt::format("{}", fmt::join(open_terrain(terrain, options.seed).notes, "\n")); });
     std::istringstream lines(notes);
     for (std::string note; std::getline(lines, note);) fmt::print(stderr, "note: {}: {}\n", terrain, note);
-  }
-}
-
-// Two names of one file would give two columns of the same figures.
-void check_terrains(const std::vector<std::string>& terrains) {
-  for (const std::string& terrain : terrains) check_terrain(terrain);
-  for (std::size_t k = 0; k < terrains.size(); ++k) {
-    for (std::size_t first = 0; first < k; ++first) {
-      std::error_code ignored;  // names of the catalogue are no files
-      if (terrains[k] != terrains[first] &&
-          !std::filesystem::equivalent(terrains[k], terrains[first], ignored))
-        continue;
-      throw usage_error(fmt::format("'{}' is given twice", terrains[k]), "--terrain",
-                        "name each terrain once");
-    }
   }
 }
 
@@ -153,7 +129,9 @@ void become(CaseOutcome outcome, std::string_view reason, const PlannedCase& pla
 }
 
 void check_interrupted() {
-  if (Progress::interrupted()) throw Error(ExitCode::kInterrupted, "interrupted", "run", "");
+  if (!Progress::interrupted()) return;
+  throw Error(ExitCode::kInterrupted, "interrupted", "run",
+              "what was measured is kept: the same command goes on (run: with --resume)");
 }
 
 void measure(const RunPlan& plan, const PlannedCase& planned, Progress::Output output, Record& record) {
@@ -179,7 +157,6 @@ Record outcome_of(const RunPlan& plan, const PlannedCase& planned, Record record
   } catch (const MachineError&) {
     throw;
   } catch (const Error& error) {
-    if (error.code() == ExitCode::kInterrupted) throw;
     fail(error.what());
   } catch (const std::bad_alloc&) {
     fail("out of memory");
@@ -191,57 +168,6 @@ Record outcome_of(const RunPlan& plan, const PlannedCase& planned, Record record
     fail(error.what());
   }
   return record;
-}
-
-// Names become parts of records: refuses what a record cannot hold before anything is measured.
-void check_names(const std::vector<PlannedCase>& cases) {
-  for (const PlannedCase& planned : cases) {
-    const std::string fault = name_fault(planned.at.name);
-    if (fault.empty()) continue;
-    throw usage_error("the name of a case " + fault, planned.at.name,
-                      planned.at.terrain.empty()
-                          ? "shorten the values of --set"
-                          : "rename the file, or name it by a shorter path, such as a link");
-  }
-}
-
-void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>& cases) {
-  for (const std::string& assignment : assignments) {
-    const std::string name = assignment.substr(0, assignment.find('='));
-    bool used = false;
-    for (PlannedCase& planned : cases) {
-      if (!planned.at.parameters.has(name)) continue;
-      planned.at.parameters.set_from_text(assignment);
-      planned.at.name += fmt::format(" ({})", assignment);
-      planned.at.overrides.push_back(assignment);
-      used = true;
-    }
-    if (used) continue;
-    std::vector<std::string_view> known;
-    for (const PlannedCase& planned : cases) {
-      for (const ParameterSpec& spec : planned.experiment->parameters) {
-        if (std::find(known.begin(), known.end(), spec.name) == known.end()) known.push_back(spec.name);
-      }
-    }
-    throw unknown_name("parameter", name, known);
-  }
-}
-
-// Those that the patterns name and the profile measures.
-std::vector<const Experiment*> chosen_experiments(const RunPlan& plan) {
-  demand_experiments(plan.patterns);
-  std::vector<const Experiment*> chosen;
-  const bool scale = plan.options.profile == Profile::kScale;
-  for (const Experiment& experiment : experiments()) {
-    if (experiment.profile_scale == scale && matches_any(plan.patterns, experiment.id))
-      chosen.push_back(&experiment);
-  }
-  if (chosen.empty()) {
-    throw usage_error(fmt::format("not measured in this profile: {}", fmt::join(plan.patterns, " ")),
-                      "--profile",
-                      scale ? "choose quick or paper" : "growth with size is measured with --profile scale");
-  }
-  return chosen;
 }
 
 // The planned cases, measured into one folder.
@@ -262,16 +188,26 @@ class Session {
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (plan_.resume && is_settled(begin(i), store_, provenance_)) continue;
       const Experiment& experiment = *cases_[i].experiment;
+      left_.expect(weight(i));
       if (experiment.kind == Experiment::kOwnProcess) {
         own_process.push_back(i);
       } else {
         (plan_.jobs > 1 && !experiment.timed(cases_[i].at) ? untimed : alone).push_back(i);
       }
     }
+    if (plan_.seconds && left_.expected() > 0)
+      fmt::print(stderr, "this takes about {} on this machine\n", duration(left_.expected()));
     const auto output = progress_output();
     measure_in_processes(untimed, plan_.jobs, Progress::Output::kSilent);
-    for (const std::size_t i : own_process) measure_in_processes({i}, 1, output);
-    for (const std::size_t i : alone) measure_one(i, output);
+    for (const std::size_t i : untimed) left_.done(weight(i));
+    for (const std::size_t i : own_process) {
+      measure_in_processes({i}, 1, output);
+      left_.done(weight(i));
+    }
+    for (const std::size_t i : alone) {
+      measure_one(i, output);
+      left_.done(weight(i));
+    }
     store_.sync();
     const std::size_t skipped = cases_.size() - untimed.size() - own_process.size() - alone.size();
     if (skipped > 0)
@@ -286,20 +222,22 @@ class Session {
         jobs, cases.size(),
         [&](std::size_t k) {
           const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, share);
-          measure_one(cases[k], output);
+          measure_one(cases[k], output, jobs > 1);
         },
         [&](std::size_t k, const std::string& how) { note_death(cases[k], how); });
   }
 
-  void measure_one(std::size_t i, Progress::Output output) {
+  // `beside_others`: how long these take says nothing of the time left.
+  void measure_one(std::size_t i, Progress::Output output, bool beside_others = false) {
     const Stopwatch watch;
     Record record = outcome_of(plan_, cases_[i], begin(i), output);
     const double seconds = watch.seconds();
     keep(record, i);
-    fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}\n", i + 1, cases_.size(), title(i), seconds,
+    fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}{}\n", i + 1, cases_.size(), title(i), seconds,
                record.outcome == CaseOutcome::kMeasured
                    ? ""
-                   : fmt::format(", {}: {}", name(record.outcome), record.reason));
+                   : fmt::format(", {}: {}", name(record.outcome), record.reason),
+               beside_others ? "" : left_.text(weight(i)));
   }
 
   // As a failure if the record cannot be written as it is.
@@ -344,6 +282,7 @@ class Session {
   }
 
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
+  double weight(std::size_t i) const { return plan_.seconds ? plan_.seconds(cases_[i]) : 1; }
   std::string title(std::size_t i) const {
     return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
   }
@@ -352,39 +291,10 @@ class Session {
   std::vector<PlannedCase> cases_;
   Store store_;
   Provenance provenance_;
+  TimeLeft left_;
 };
 
 }  // namespace
-
-std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
-  check_terrains(plan.options.terrains);
-  const std::vector<const Experiment*> chosen = chosen_experiments(plan);
-  std::vector<PlannedCase> cases;
-  for (const Experiment* const experiment : chosen) {
-    for (Case& at : experiment->cases(plan.options)) cases.push_back({experiment, std::move(at)});
-  }
-  std::vector<ParameterSpec> specs;
-  for (const PlannedCase& planned : cases) {
-    specs.insert(specs.end(), planned.experiment->parameters.begin(), planned.experiment->parameters.end());
-  }
-  const std::vector<std::string> assignments = split_assignments(plan.assignments, specs);
-  apply(assignments, cases);
-  check_names(cases);
-  if (!plan.options.terrains.empty() &&
-      std::none_of(cases.begin(), cases.end(), [](const PlannedCase& p) { return !p.at.terrain.empty(); })) {
-    throw usage_error("none of these experiments takes a terrain", "--terrain",
-                      "leave it out, or choose another experiment");
-  }
-  if (plan.part != Part::kAll) {
-    std::erase_if(cases, [&](const PlannedCase& planned) {
-      return planned.experiment->timed(planned.at) != (plan.part == Part::kTimed);
-    });
-  }
-  std::vector<PlannedCase> mine;
-  for (std::size_t i = plan.shard - 1; i < cases.size(); i += plan.shards)
-    mine.push_back(std::move(cases[i]));
-  return mine;
-}
 
 ExitCode run(const RunPlan& plan) { return Session(plan).run(); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@
 #include "terrain/error.h"
 
 namespace terrabench {
+
+struct PlannedCase {
+  const Experiment* experiment;
+  Case at;
+};
 
 enum class Part { kAll, kTimed, kUntimed };  // which cases: see Experiment::timed()
 
@@ -24,6 +30,9 @@ struct RunPlan {
   int threads = 0;                   // in use, for the provenance; 0: all
   int jobs = 1;                      // untimed cases beside each other, with threads ÷ jobs threads each
   std::vector<std::string> command;  // argv, for the provenance
+  // About how many seconds the case takes, to say how long the run will. None: each as long as any other,
+  // and nothing is said before some were measured.
+  std::function<double(const PlannedCase&)> seconds = {};
 };
 
 // Exit code of a run of which some cases failed; the others are measured.
@@ -31,10 +40,6 @@ inline constexpr ExitCode kCasesFailed{5};
 
 // The cases a plan names, in the registry's order. Throws usage_error when a pattern matches nothing (with
 // the nearest id), the profile measures none of the experiments, or an assignment fits no parameter of any.
-struct PlannedCase {
-  const Experiment* experiment;
-  Case at;
-};
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or

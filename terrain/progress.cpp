@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "terrain/duration.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -13,12 +14,12 @@ namespace {
 
 constexpr std::int64_t kTerminalInterval = 100, kLineInterval = 5000;  // milliseconds between two lines
 
+}  // namespace
+
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
   return fmt::format("{:.0f} min", seconds / 60);
 }
-
-}  // namespace
 
 std::atomic<bool> Progress::interrupted_{false};
 

@@ -43,6 +43,7 @@ constexpr const char* kFooter =
 // Below the help of the command.
 constexpr std::pair<const char*, const char*> kExamples[] = {
     {"list", "  terrabench list terrains\n  terrabench list mrbsp"},
+    {"advise", "  terrabench advise mountain.tif --for flying --out mine"},
     {"run", "  terrabench run mrbsp.walk --out out\n  terrabench run 'hybrid.*' --profile paper --out out"},
     {"check", "  terrabench check out\n  terrabench check results/reference --claims 'mrbsp.T2.*' --verbose"},
     {"report", "  terrabench report out\n  terrabench report results/reference --latex bundle"},
@@ -79,6 +80,7 @@ void parse_shard(const std::string& text, RunPlan& plan) {
 struct Arguments {
   ListArguments list;
   RunPlan run;
+  AdviseArguments advise;
   RepresentArguments represent;
   ExportArguments exported;
   RenderArguments render;
@@ -181,8 +183,8 @@ void add_results(CLI::App& app, Arguments& a) {
   report
       ->add_option(
           "--reference", a.report.reference,
-          "Results folder with whose grounds yours is compared, such as results/reference: the report "
-          "says whether the same method is best there (default: DIR)")
+          "Results folder with whose grounds yours is compared: the report says whether the same method is "
+          "best there (default: the reference run, which is inside the program)")
       ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare = app.add_subcommand(
@@ -309,11 +311,12 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("merge")) return merge_command(a.merge);
   if (app.got_subcommand("info")) return info_command(a.info);
   install_signals();
+  a.run.threads = a.threads;
+  if (app.got_subcommand("advise")) return advise_command(a.advise, a.run);
   if (app.got_subcommand("represent")) return represent_command(a.represent);
   if (app.got_subcommand("export")) return export_command(a.exported);
   if (app.got_subcommand("render")) return render_command(a.render);
   parse_shard(a.shard, a.run);
-  a.run.threads = a.threads;
   a.run.part = a.cases == "timed" ? Part::kTimed : a.cases == "untimed" ? Part::kUntimed : Part::kAll;
   a.run.options.profile = a.profile == "paper"   ? Profile::kPaper
                           : a.profile == "scale" ? Profile::kScale
@@ -333,6 +336,7 @@ int main_program(int argc, char** argv) {
   Arguments arguments;
   arguments.run.command.assign(argv, argv + argc);
   add_list(app, arguments);
+  add_advise(app, arguments.advise, arguments.threads);
   add_run(app, arguments);
   add_results(app, arguments);
   add_represent(app, arguments.represent, arguments.threads);

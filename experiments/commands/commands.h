@@ -20,6 +20,8 @@ class App;
 
 namespace terrabench {
 
+struct RunPlan;
+
 struct ListArguments {
   // representations, lods, experiments, claims, terrains, models, scene; a paper's id: its experiments and
   // claims; empty: all
@@ -83,6 +85,17 @@ struct RenderArguments {
 };
 ExitCode render_command(const RenderArguments&);
 
+// The samples along a side of the largest ground that `advise` measures whole.
+inline constexpr int kAdvisedSide = 257;
+
+struct AdviseArguments {
+  std::string terrain, purpose;             // purpose: one of purposes() (advice.h); empty: all
+  std::filesystem::path folder, reference;  // empty: advice-NAME; the reference run's answers
+  int side = kAdvisedSide;  // of a larger DEM a part is measured, at most so many samples along its sides
+};
+// `plan`: with threads and command set.
+ExitCode advise_command(const AdviseArguments&, RunPlan plan);
+
 struct CheckArguments {
   std::filesystem::path folder = "out", junit;
   std::vector<std::string> claims;  // ids or globs; empty: those of the experiments that were run
@@ -128,6 +141,7 @@ void add_represent(CLI::App&, RepresentArguments&, int& threads);
 void add_export(CLI::App&, ExportArguments&);
 void add_info(CLI::App&, std::filesystem::path& file);
 void add_render(CLI::App&, RenderArguments&, int& threads);
+void add_advise(CLI::App&, AdviseArguments&, int& threads);
 // `raytrace`: whether the command also takes the renderer that traces rays.
 void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = false);
 

@@ -24,6 +24,8 @@ void print_heights(const Heightfield& field, const std::vector<std::string>& not
   fmt::print("samples     {} × {}, cells {:.6g} m × {:.6g} m, {:.4g} km × {:.4g} km\n", field.width,
              field.depth, field.cell_x, field.cell_z, field.extent_x() / 1000, field.extent_z() / 1000);
   fmt::print("heights     {:.6g}…{:.6g} m, {} without data\n", range.lowest, range.highest, range.no_data);
+  const std::string system = name_of_reference_system(field.georeference.crs);
+  fmt::print("system      {}\n", system.empty() ? "not named" : system);
   fmt::print("checksum    {}\n", checksum(field));
   for (const std::string& note : notes) fmt::print("note        {}\n", note);
 }

@@ -6,6 +6,7 @@
 
 #include "experiments/commands/commands.h"
 #include "renderers/context.h"
+#include "results/report/advice.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
 
@@ -137,6 +138,46 @@ void add_info(CLI::App& app, std::filesystem::path& file) {
       ->add_option("file", file,
                    "File or folder, dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
       ->required();
+}
+
+void add_advise(CLI::App& app, AdviseArguments& a, int& threads) {
+  auto* command =
+      app.add_subcommand("advise",
+                         "Say which method to take for a ground: measures them on it in a few minutes, "
+                         "prints a table with reasons, "
+                         "and writes a page with pictures. The same command goes on after an interruption");
+  command
+      ->add_option(
+          "terrain", a.terrain,
+          "The path of a DEM, dem:FILE,OPTION=VALUE (docs/grounds.md), drawing:FILE.png or an event file")
+      ->required();
+  command
+      ->add_option(
+          "--for", a.purpose,
+          "What the ground is for: flying, walking, editing or archiving. Asks only the questions that "
+          "matter for it (default: all)")
+      ->check(CLI::Validator(
+          [](const std::string& value) {
+            const std::vector<std::string> known = purposes();
+            if (std::ranges::find(known, value) != known.end()) return std::string();
+            const std::vector<std::string_view> names(known.begin(), known.end());
+            return std::string(unknown_name("purpose", value, names).what());
+          },
+          ""));
+  command->add_option("--out", a.folder, "Results folder (default: advice-NAME, after the file)");
+  command->add_option(
+      "--reference", a.reference,
+      "Compare with the grounds of this results folder (default: with those of the reference run, "
+      "which are inside the program)");
+  command
+      ->add_option(
+          "--side", a.side,
+          "Measure a larger DEM's middle, so many samples wide and deep, or where that has no heights or "
+          "is flat, another part. A part that you name, dem:FILE,crop=WIDTHxDEPTH, is measured whole")
+      ->check(CLI::Range(2, 16385))
+      ->capture_default_str();
+  command->add_option("--threads", threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
 }
 
 void add_render(CLI::App& app, RenderArguments& r, int& threads) {

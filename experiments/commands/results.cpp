@@ -45,7 +45,7 @@ void warn_of(const std::vector<std::string>& faults) {
 std::filesystem::path report(const ReportArguments& arguments) {
   const WrittenReport report = write_report(arguments.folder, arguments.reference, arguments.profile);
   warn_of(report.faults);
-  fmt::print("{}", report.findings);
+  fmt::print("{}{}", report.findings, report.advice);
   return report.page;
 }
 

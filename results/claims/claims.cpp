@@ -332,7 +332,7 @@ Paper layouts_of(const Paper& named, const UnnamedGround& ground,
   std::erase_if(paper.rankings, [&](const RankingLayout& ranking) {
     return ranking.entries.empty() ||
            std::ranges::any_of(ranking.entries, [&](const RankingLayout::Entry& entry) {
-             return !entry.case_name.starts_with(ground.name + "/");
+             return entry.case_name != ground.name && !entry.case_name.starts_with(ground.name + "/");
            });
   });
   if (paper.pages.size() != 1) entry.refuse("[further] must leave one [[page]] for a further ground");

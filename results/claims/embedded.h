@@ -14,4 +14,7 @@ std::span<const EmbeddedFile> embedded_style();
 // results/report/filter.js
 std::span<const EmbeddedFile> embedded_script();
 
+// results/reference/report/findings.json
+std::span<const EmbeddedFile> embedded_findings();
+
 }  // namespace terrabench

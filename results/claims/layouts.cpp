@@ -208,6 +208,8 @@ RankingLayout parse_ranking(const TomlValue& node) {
   layout.table = entry.text_or("table", "");
   layout.question = entry.text_or("question", "");
   layout.headline = entry.flag("headline");
+  layout.kind = entry.text_or("kind", "");
+  for (const TomlValue& purpose : entry.list("purposes")) layout.purposes.push_back(purpose.text("purposes"));
   if (!layout.ground.empty() && (layout.table.empty() || layout.question.empty()))
     entry.refuse("a ranking with a 'ground' needs a 'table' and a 'question'");
   layout.experiment = entry.text("experiment");

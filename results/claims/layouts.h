@@ -80,13 +80,16 @@ struct RankingLayout {
   using Entry = TableLayout::Row;
   std::string id, task, where;  // task: "Fewest bytes in memory"; where: "on caves"
   // Its place in the tables of findings (findings_table.h): the table, the row, and the column, which is a
-  // ground with a page of that id; empty: in none. A headline has a sentence above the tables, too.
+  // ground with a page of that id; empty: in none. A headline has a sentence above the tables, too. The
+  // question alone: a row of the advice for a ground (advice.h).
   std::string table, question, ground;
   bool headline = false;
-  std::string experiment, metric;  // `metric` and `needs` are read for the entry as a table's columns are
-  std::string unit;                // that values are shown in
-  bool most = false;               // the best has the most, otherwise the least
-  bool searched = false;           // the metric is of the best that a search found: kSearchMargin
+  std::string kind;                   // answers are compared between grounds of the same kind; empty: of any
+  std::vector<std::string> purposes;  // for whom the question matters: `terrabench advise --for`
+  std::string experiment, metric;     // `metric` and `needs` are read for the entry as a table's columns are
+  std::string unit;                   // that values are shown in
+  bool most = false;                  // the best has the most, otherwise the least
+  bool searched = false;              // the metric is of the best that a search found: kSearchMargin
   // An entry takes part only if this metric lies in the range, where any entry has it. Empty: none. The text
   // says so: "of types that come close to that error".
   std::string needs, needs_text;

@@ -42,9 +42,12 @@ struct Ranking {
   bool decided() const { return !places.empty() && not_compared.empty() && !undecided; }
   // "heightmap (262 kB), ahead of drills (341 kB) by a factor of 1.3"
   std::string result() const;
-  // The factor alone: "1.3 [1.2, 1.4] ×", "tied, within 1.1 [1.05, 1.2] ×", "tied", "alone"; of one that is
-  // decided.
+  // The best, or those tied with it, by name; none if it is not decided.
+  std::vector<std::string> best() const;
+  // By how much the best is ahead: "1.3 ×", "tied", "alone"; a dash if it is not decided.
   std::string lead() const;
+  // Why, in numbers: "2.9 kB against 5.1 kB (TIN)"; or why it is not decided.
+  std::string reason() const;
   // "on caves: ", the result, and "(left out: drills and heightmap)"
   std::string clause() const;
 };

@@ -13,21 +13,12 @@
 namespace terrabench {
 namespace {
 
-// The methods that are best, by name; empty if nothing is decided.
-std::vector<std::string> winners(const Ranking& ranking) {
-  std::vector<std::string> best;
-  if (!ranking.decided()) return best;
-  for (std::size_t i = 0; i < ranking.tied; ++i) best.push_back(ranking.places[i].label);
-  std::ranges::sort(best);
-  return best;
-}
-
 std::string joined(const std::vector<std::string>& methods) {
   return fmt::format("{}", fmt::join(methods, " ≈ "));
 }
 
 Cell cell_of(const Ranking& ranking) {
-  const std::vector<std::string> best = winners(ranking);
+  const std::vector<std::string> best = ranking.best();
   Cell cell{joined(best)};
   if (best.empty()) {
     cell.text = "not decided";
@@ -47,7 +38,7 @@ Cell cell_of(const Ranking& ranking) {
 class Outcomes {
  public:
   void add(const Ranking& ranking) {
-    for (const std::string& method : winners(ranking)) grounds_of_[method].push_back(grounds_);
+    for (const std::string& method : ranking.best()) grounds_of_[method].push_back(grounds_);
     ++grounds_;
   }
 
@@ -124,11 +115,6 @@ Table table_of(const std::string& name, const std::vector<const Ranking*>& ranki
   return table;
 }
 
-std::size_t width_of(std::string_view utf8) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 std::vector<Table> findings_tables(std::span<const Ranking> rankings) {
@@ -156,24 +142,31 @@ Facts headlines(std::span<const Ranking> rankings) {
   return lines;
 }
 
-std::string plain_text(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    widths.push_back(width_of(table.columns[i].title));
-    for (const auto& row : table.rows) widths[i] = std::max(widths[i], width_of(row[i].text));
+std::string plain_text(const Table& table, std::size_t widest) {
+  std::vector<std::vector<std::vector<std::string>>> rows(1);  // their cells' lines
+  for (const Column& column : table.columns) rows[0].push_back({column.title});
+  for (const std::vector<Cell>& row : table.rows) {
+    rows.emplace_back();
+    for (const Cell& cell : row) rows.back().push_back(wrap(cell.text, widest));
+  }
+  std::vector<std::size_t> widths(table.columns.size());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      for (const std::string& line : row[i]) widths[i] = std::max(widths[i], characters(line));
+    }
   }
   std::string text;
-  const auto add_line = [&](auto text_of) {
-    std::string line;
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-      const std::string& cell = text_of(i);
-      line += cell + std::string(widths[i] - width_of(cell) + 2, ' ');
+  for (const auto& row : rows) {
+    const std::size_t lines = std::ranges::max(row, {}, [](const auto& cell) { return cell.size(); }).size();
+    for (std::size_t k = 0; k < lines; ++k) {
+      std::string line;
+      for (std::size_t i = 0; i < widths.size(); ++i) {
+        const std::string cell = k < row[i].size() ? row[i][k] : "";
+        line += cell + std::string(widths[i] - characters(cell) + 2, ' ');
+      }
+      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  };
-  add_line([&](std::size_t i) -> const std::string& { return table.columns[i].title; });
-  for (const auto& row : table.rows)
-    add_line([&](std::size_t i) -> const std::string& { return row[i].text; });
+  }
   return text;
 }
 

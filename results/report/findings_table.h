@@ -20,7 +20,7 @@ std::vector<Table> findings_tables(std::span<const Ranking>);
 // A line per headline: the question, and "ROAM on 3 of 3 grounds".
 Facts headlines(std::span<const Ranking>);
 
-// The table for a terminal: columns of equal width, no caption.
-std::string plain_text(const Table&);
+// The table for a terminal: aligned columns, no caption. Texts longer than `widest` characters are wrapped.
+std::string plain_text(const Table&, std::size_t widest = 100);
 
 }  // namespace terrabench

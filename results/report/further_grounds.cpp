@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -80,79 +81,14 @@ FurtherGround lay_out(const Paper& named, const Measured& measured, const std::s
   return ground;
 }
 
-// Labels of the best, and of those tied with it.
-std::vector<std::string> winners(const Ranking& ranking) {
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < std::min(ranking.tied, ranking.places.size()); ++i)
-    labels.push_back(ranking.places[i].label);
-  return labels;
-}
-
-bool same_winners(const Ranking& a, const Ranking& b) {
-  std::vector<std::string> ours = winners(a), theirs = winners(b);
-  std::ranges::sort(ours);
-  std::ranges::sort(theirs);
-  return ours == theirs;
-}
-
-// "as on real mountains (1.3 [1.2, 1.4] ×), on a fractal (2 ×); on caves drills, voxels (tied, within 1.1 ×)"
-std::string beside_named(const Ranking& here, std::span<const Ranking> named) {
-  std::string same, others;
-  for (const Ranking& ranking : named) {
-    if (ranking.layout->task != here.layout->task || !ranking.decided()) continue;
-    if (here.decided() && same_winners(here, ranking)) {
-      same += fmt::format("{}{} ({})", same.empty() ? "as " : ", ", ranking.layout->where, ranking.lead());
-    } else {
-      others += fmt::format("{}{} {} ({})", others.empty() ? "" : "; ", ranking.layout->where,
-                            fmt::join(winners(ranking), ", "), ranking.lead());
-    }
+// Why a question has no answer there, as the records say; empty: nothing of it was measured.
+std::string why_not_asked(const RankingLayout& layout, const ProfileOfStore& measured) {
+  for (const RankingLayout::Entry& entry : layout.entries) {
+    const Record* const record = measured.store.find(layout.experiment, entry.case_name, measured.profile);
+    const auto why = record == nullptr ? std::nullopt : record->why_absent(for_row(layout.metric, entry));
+    if (why) return std::string(why->reason);
   }
-  if (same.empty() && others.empty()) return "nothing decided there";
-  return same + (same.empty() || others.empty() ? "" : "; ") + others;
-}
-
-// What the table says of its columns. `compared`: whether it has that of the other grounds.
-std::string caption(bool same_folder, bool compared) {
-  const std::string text =
-      "For each task: the best method on this ground and by which factor it is ahead of the next, with the "
-      "factor's 95 % interval in brackets. " +
-      tie_rule();
-  if (!compared)
-    return text +
-           (same_folder ? "" : " No task is decided in the results folder that was named for comparison.");
-  return fmt::format(
-      "{} The last column lists the grounds measured in {} where the task is decided: first those where the "
-      "same method is best or the same methods are tied, then which methods are best on the others. "
-      "Its parentheses hold the factor by which the best is ahead of the next there, or within which the "
-      "best are tied, with its interval.",
-      text, same_folder ? "the same results folder" : "the results folder that was named for comparison");
-}
-
-// `elsewhere`: rankings on the compared grounds; the table has no column of them if none is decided.
-FilledTable table_of(const FurtherGround& ground, const ProfileOfStore& measured, const ProfileOfStore& named,
-                     std::span<const Ranking> elsewhere) {
-  const bool compared = std::ranges::any_of(elsewhere, &Ranking::decided);
-  FilledTable filled{{ground.table_id(),
-                      fmt::format("Which method for {}", ground.label),
-                      caption(&measured.store == &named.store, compared),
-                      {{"Task"}, {"Best on this ground"}},
-                      {}},
-                     {}};
-  Table& table = filled.table;
-  if (compared) table.columns.push_back({"On the compared grounds"});
-  if (compared && measured.profile != named.profile) {
-    table.columns[1].title += fmt::format(", profile {}", measured.profile);
-    table.columns[2].title += fmt::format(", profile {}", named.profile);
-  }
-  for (const Ranking& here : rank(ground.paper.rankings, measured.store, measured.profile)) {
-    const std::string& needs = here.layout->needs_text;
-    table.rows.push_back({{here.layout->task + (needs.empty() ? "" : ", " + needs)}, {here.result()}});
-    if (compared) table.rows.back().push_back({beside_named(here, elsewhere)});
-    for (const std::string& run : here.runs) {
-      if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
-    }
-  }
-  return filled;
+  return "";
 }
 
 double lost_share(const Record& record) {
@@ -216,13 +152,29 @@ std::vector<FurtherGround> further_grounds(std::span<const Paper> papers, const 
 
 std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround> further,
                                                    const ProfileOfStore& measured,
-                                                   std::span<const RankingLayout> compared,
-                                                   const ProfileOfStore& named) {
-  const std::vector<Ranking> elsewhere = rank(compared, named.store, named.profile);
+                                                   std::span<const Answer> elsewhere,
+                                                   std::string_view purpose) {
   std::vector<FilledTable> tables;
   for (const FurtherGround& ground : further) {
-    FilledTable filled = table_of(ground, measured, named, elsewhere);
-    if (!filled.table.rows.empty()) tables.push_back(std::move(filled));
+    std::vector<Ranking> rankings = rank(ground.paper.rankings, measured.store, measured.profile);
+    std::erase_if(rankings, [&](const Ranking& ranking) { return !matters(*ranking.layout, purpose); });
+    if (rankings.empty()) continue;
+    FilledTable& filled = tables.emplace_back();
+    filled.table = advice(rankings, elsewhere);
+    filled.table.id = ground.table_id();
+    filled.table.title = "Which method for " + ground.label;
+    for (const RankingLayout& layout : ground.paper.rankings) {
+      const auto same = [&](const Ranking& ranking) { return ranking.layout == &layout; };
+      if (!matters(layout, purpose) || std::ranges::any_of(rankings, same)) continue;
+      const std::string why = why_not_asked(layout, measured);
+      if (!why.empty())
+        filled.table.rows.push_back({{layout.question}, {"not asked"}, {"–"}, {"–"}, {"–"}, {why}});
+    }
+    for (const Ranking& ranking : rankings) {
+      for (const std::string& run : ranking.runs) {
+        if (std::ranges::count(filled.runs, run) == 0) filled.runs.push_back(run);
+      }
+    }
   }
   return tables;
 }

@@ -1,7 +1,6 @@
 // Grounds that were measured and that no claims file names, such as a user's DEM: what the report shows of
 // them. A claims file says with its [further] how its tables, plots, pictures and rankings are had for such a
-// ground (toml_reader.h). "Which method for my ground" ranks the methods there, and compares the result with
-// the rankings on the named grounds, of the same or of another results folder.
+// ground (toml_reader.h). "Which method for my ground" (advice.h) ranks the methods there.
 #pragma once
 
 #include <map>
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "results/claims/claims.h"
-#include "results/claims/ranking.h"
+#include "results/report/advice.h"
 #include "results/report/fill.h"
 
 namespace terrabench {
@@ -49,12 +48,11 @@ struct FurtherGround : UnnamedGround {  // the label is that of labels_of_ground
 // is_case_of() and if its experiment is one that the page shows. Throws bad_input as layouts_of() does.
 std::vector<FurtherGround> further_grounds(std::span<const Paper>, const ProfileOfStore& measured);
 
-// A table per further ground of which methods can be ranked: for each task who is best there and by how much,
-// and which of the `compared` grounds, as measured in `named`, have the same best, or the same methods tied.
-// Without this last column if no task is decided on any of them.
+// A table per further ground of which methods can be ranked: advice() for it. `purpose`: the questions that
+// matter for it; empty: all.
 std::vector<FilledTable> tables_of_further_grounds(std::span<const FurtherGround>,
                                                    const ProfileOfStore& measured,
-                                                   std::span<const RankingLayout> compared,
-                                                   const ProfileOfStore& named);
+                                                   std::span<const Answer> elsewhere,
+                                                   std::string_view purpose = "");
 
 }  // namespace terrabench

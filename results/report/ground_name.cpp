@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "terrain/files.h"
+#include "terrain/sources/dem/dem.h"
 
 namespace terrabench {
 namespace {
@@ -29,7 +30,8 @@ bool ends_in(std::string_view ground, std::string_view tail) {
 
 std::string ground_id(std::string_view ground) {
   std::string stem;
-  for (const char c : std::filesystem::path(ground).stem().string()) {
+  const std::size_t prefix = ground.starts_with(kDemPrefix) ? kDemPrefix.size() : 0;
+  for (const char c : std::filesystem::path(ground.substr(prefix)).stem().string()) {
     const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
     if (stem.size() < kLongestStem && (kept || !stem.ends_with('_'))) stem += kept ? c : '_';
   }
@@ -45,13 +47,13 @@ std::vector<std::string> ground_labels(std::span<const std::string> grounds) {
     while (tail.size() < ground.size() && std::ranges::any_of(grounds, shared)) {
       tail = tail_before(ground, ground.size() - tail.size() - 1);
     }
-    labels.emplace_back(tail);
+    labels.push_back(readable_dem(tail));
   }
   return labels;
 }
 
 std::string with_label(std::string text, std::string_view ground, std::string_view label) {
-  if (ground.find('/') == ground.npos) return text;
+  if (ground.find('/') == ground.npos && !ground.starts_with(kDemPrefix)) return text;
   for (std::size_t at = text.find(ground); at != text.npos; at = text.find(ground, at + label.size())) {
     text.replace(at, ground.size(), label);
   }

@@ -15,10 +15,12 @@ namespace terrabench {
 std::string ground_id(std::string_view ground);
 
 // For readers, one per ground, in the same order: the file's name, preceded by as many of its folders as tell
-// it from the other grounds' files. The grounds must differ. O(n² · length)
+// it from the other grounds' files, and followed by what part of it was read: "alps.tif, its middle 257 ×
+// 257". The grounds must differ. O(n² · length)
 std::vector<std::string> ground_labels(std::span<const std::string> grounds);
 
-// The text with the label wherever it has the ground's name, if that is a path; other names stay.
+// The text with the label wherever it has the ground's name, if that is a path or a DEM with options; other
+// names stay.
 std::string with_label(std::string text, std::string_view ground, std::string_view label);
 
 }  // namespace terrabench

@@ -154,12 +154,11 @@ class Bundle {
   }
 
   // A section per ground that no claims file names, with the tables, plots and pictures of its page in the
-  // report, and which method is best there, compared with the named grounds of the same results folder.
+  // report, and which method is best there, compared with the reference grounds.
   void add_further_grounds() {
     const ProfileOfStore measured{store_, results_.profile};
     const std::vector<FurtherGround> further = further_grounds(papers_, measured);
-    std::vector<FilledTable> which =
-        tables_of_further_grounds(further, measured, ranking_layouts(), measured);
+    std::vector<FilledTable> which = tables_of_further_grounds(further, measured, reference_answers());
     for (const FurtherGround& ground : further) {
       std::vector<Table> tables = filled_tables(ground.paper);
       const auto best =

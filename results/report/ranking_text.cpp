@@ -52,12 +52,38 @@ std::string Ranking::result() const {
   return all + " are tied" + (factor == "1" ? "" : ", within a factor of " + factor);
 }
 
+std::vector<std::string> Ranking::best() const {
+  std::vector<std::string> labels;
+  if (!decided()) return labels;
+  for (std::size_t i = 0; i < tied; ++i) labels.push_back(places[i].label);
+  std::ranges::sort(labels);
+  return labels;
+}
+
 std::string Ranking::lead() const {
+  if (!decided()) return "–";
   if (places.size() == 1) return "alone";
-  const Summary& factor = factor_of(*this);
-  if (tied == 1) return factor_text(factor) + " ×";
-  const std::string text = factor_text(factor);
-  return text == "1" ? "tied" : fmt::format("tied, within {} ×", text);
+  return tied > 1 ? "tied" : format_number(places[1].factor.median) + " ×";
+}
+
+std::string Ranking::reason() const {
+  if (places.empty()) return "no method comes within that error";
+  if (!not_compared.empty()) return "not compared, as " + not_compared;
+  const auto value_of = [&](const Place& p) {
+    const double value = printed(p.value, timed);
+    if (layout->unit != "1/s") return format_quantity(value, layout->unit);
+    return value < 1e6 ? format_number(value) + " per second"
+                       : format_number(value / 1e6) + " million per second";
+  };
+  if (places.size() == 1)
+    return fmt::format("{}; no other method comes within that error", value_of(places[0]));
+  if (tied == 1)
+    return fmt::format("{} against {} ({})", value_of(places[0]), value_of(places[1]), places[1].label);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < tied; ++i) all.push_back(places[i].label + " " + value_of(places[i]));
+  const std::string values = list_of(all, ", ", ", ");
+  if (too_few) return fmt::format("measured fewer than {} times: {}", kFewestSamples, values);
+  return undecided ? "the samples vary too much to tell apart " + values : values;
 }
 
 std::string Ranking::clause() const {

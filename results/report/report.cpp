@@ -17,6 +17,8 @@
 #include "results/report/fill.h"
 #include "results/report/findings_table.h"
 #include "results/report/further_grounds.h"
+#include "results/report/further_section.h"
+#include "results/report/ground_name.h"
 #include "results/report/ledger.h"
 #include "results/report/report_parts.h"
 #include "results/report/report_tables.h"
@@ -36,10 +38,10 @@ constexpr FolderMark kMark{"report", "index.html",
 
 class Report {
  public:
-  Report(const Store& store, std::span<const Paper> papers, const Store& reference,
+  Report(const Store& store, std::span<const Paper> papers, const ReportOptions& options,
          const std::filesystem::path& out)
       : store_(store),
-        reference_(reference),
+        options_(options),
         papers_(papers),
         out_(out),
         results_(judge(store, papers)),
@@ -49,19 +51,25 @@ class Report {
   // Of the reference too, if it is another folder.
   std::vector<std::string> faults() const {
     std::vector<std::string> all = results_.faults;
-    if (&reference_ != &store_) std::ranges::copy(reference_.faults(), std::back_inserter(all));
+    if (options_.reference != nullptr)
+      std::ranges::copy(options_.reference->faults(), std::back_inserter(all));
     return all;
   }
 
   const std::string& findings_text() const { return findings_; }  // once it is written
+  const std::string& advice_text() const { return advice_; }
 
   void write() {
-    introduce();
+    if (has_claims()) {
+      introduce();
+    } else {
+      introduce_grounds();
+    }
     for (const Paper& paper : papers_) {
       if (has_results(paper)) add_paper(paper);
     }
     add_unclaimed_cases();
-    add_section({2, "Without measurements", "absent"}, absence_table(results_));
+    add_absences();
     add_other_pictures();
     add(provenance(store_));
     write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
@@ -69,7 +77,7 @@ class Report {
         Paragraph{"Every case with its seed, its terrain, that terrain's checksum and its parameters:",
                   false,
                   {{"CSV", "tables/inputs.csv"}}});
-    write_ledger();
+    if (has_claims()) write_ledger();
     write_page(out_, kMainPage, document_, fmt::format("{}\n", kMark.line));
   }
 
@@ -161,55 +169,33 @@ class Report {
         {{"Findings", "findings.html"}, {"as Markdown", "findings.md"}, {"as JSON", "findings.json"}}});
   }
 
-  // What was measured on grounds that no claims file names: a list of their pages, and which method is best
-  // there.
-  void add_further_grounds() {
-    write_further_pages();
-    std::vector<FilledTable> tables = tables_of_further_grounds(
-        further_, {store_, results_.profile}, ranking_layouts(), {reference_, reference_.profile()});
-    if (further_pages_.empty() && tables.empty()) return;
-    document_.push_back(Heading{2, "Further grounds", "grounds"});
-    document_.push_back(Paragraph{
-        "Grounds chosen with the option --terrain of run. No claim is about them. The page of each has "
-        "the tables, plots and pictures that the grounds of the comparisons across the papers have, as "
-        "far as they were measured."});
-    if (!further_pages_.empty())
-      document_.push_back(
-          TableBlock{ground_table("further.grounds", "One page per further ground", further_pages_), {}});
-    if (!tables.empty() && &reference_ == &store_) {
-      document_.push_back(
-          Paragraph{"The option --reference of report compares these grounds with those of another results "
-                    "folder, such as results/reference."});
-    }
-    if (!tables.empty() && !reference_.faults().empty()) {
-      document_.push_back(
-          Paragraph{fmt::format("The results that these are compared with cannot be trusted: {} faults",
-                                reference_.faults().size()),
-                    true});
-    }
-    for (const FurtherGround& ground : further_) {
-      for (const std::string& warning : ground.warnings) {
-        document_.push_back(Paragraph{fmt::format("Ground {}. {}", ground.label, warning), true});
-      }
-    }
-    for (FilledTable& filled : tables) add_table(std::move(filled.table), filled.runs);
+  // Of a folder without them, as after `terrabench advise`, the grounds are all that there is to say.
+  bool has_claims() const {
+    return further_.empty() ||
+           std::ranges::any_of(results_.judgements, [](const Judgement& j) { return !j.runs.empty(); });
   }
 
-  void write_further_pages() {
-    for (const FurtherGround& ground : further_) {
-      if (!parts_.write_ground_page(
-              ground.paper, ground.page(), remarks(ground.warnings),
-              "Which method is best on this ground, the measurements on other grounds, and the machine and "
-              "code of each run:",
-              {"Further grounds", "main#grounds"}))
-        continue;
-      further_pages_.push_back(ground.page());
-      // Their figures do not stand on the main page, too.
-      for (const auto* const cases : {&ground.page().sheets, &ground.page().pictures}) {
-        for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, ground.label))
-          claimed_.insert(shown.figure->id);
-      }
-    }
+  void introduce_grounds() {
+    const std::string name = further_.size() == 1 ? further_[0].label : "my ground";
+    document_.push_back(Heading{1, "Which method for " + name, "top"});
+    document_.push_back(Paragraph{
+        "Terrain methods, measured on this ground. Each answer below is computed from the measurements; the "
+        "page of the ground has all of them, as tables, curves and pictures."});
+    add_warning(document_);
+    add_further_grounds();
+  }
+
+  // What was measured on grounds that no claims file names.
+  void add_further_grounds() {
+    FurtherSection section = further_section(store_, results_.profile, options_, further_, parts_,
+                                             [&](const FurtherGround& g) { return remarks(g.warnings); });
+    if (!section.blocks.empty())
+      document_.push_back(Heading{2, has_claims() ? "Further grounds" : "What to take", "grounds"});
+    add(std::move(section.blocks));
+    if (!has_claims()) add(std::move(section.pictures));
+    further_pages_ = std::move(section.pages);
+    claimed_.merge(section.figures);
+    advice_ = std::move(section.advice);
   }
 
   void write_ledger() {
@@ -280,7 +266,7 @@ class Report {
               paper, layout, remarks(warnings),
               "The verdicts on these measurements, the other comparisons, and the machine "
               "and code of each run:",
-              {paper.title, "main#" + paper.id}))
+              {{paper.title, "main#" + paper.id}, {"Report", "main"}, {"Ledger", "ledger.*"}}))
         written.push_back(layout);
     }
     if (written.empty()) return;
@@ -355,19 +341,24 @@ class Report {
     document_.push_back(parts_.table(std::move(table), runs));
   }
 
-  // Nothing if it has no rows.
-  void add_section(Heading heading, Table table) {
-    if (!table.rows.empty()) add_with_heading(std::move(heading), {parts_.table(std::move(table), {})});
+  void add_absences() {
+    Table table = absence_table(results_);
+    if (table.rows.empty()) return;
+    for (const auto& [ground, label] : labels_of_grounds(store_, results_.profile)) {
+      for (std::vector<Cell>& row : table.rows) row.back().text = with_label(row.back().text, ground, label);
+    }
+    add_with_heading({2, "Without measurements", "absent"}, {parts_.table(std::move(table), {})});
   }
 
-  const Store &store_, &reference_;
+  const Store& store_;
+  const ReportOptions& options_;
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
   std::vector<FurtherGround> further_;
   ReportParts parts_;
   Document document_;
-  std::string findings_;
+  std::string findings_, advice_;
   std::vector<PageLayout> grounds_, further_pages_;  // those with a page
   std::set<std::string>
       claimed_;  // ids of pictures that belong to a claim or stand on a further ground's page
@@ -376,20 +367,20 @@ class Report {
 }  // namespace
 
 WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference,
-                           const std::string& profile) {
+                           const std::string& profile, const std::string& purpose) {
   const Store store = Store::open(folder, profile);
-  if (reference.empty()) return write_report(store, papers());
+  if (reference.empty()) return write_report(store, papers(), {nullptr, purpose});
   const Store compared = Store::open(reference);
-  return write_report(store, papers(), &compared);
+  return write_report(store, papers(), {&compared, purpose});
 }
 
-WrittenReport write_report(const Store& store, std::span<const Paper> papers, const Store* reference) {
+WrittenReport write_report(const Store& store, std::span<const Paper> papers, const ReportOptions& options) {
   const std::filesystem::path target = store.folder() / "report";
   NewFolder folder(target, kMark);
-  Report report(store, papers, reference == nullptr ? store : *reference, folder.path());
+  Report report(store, papers, options, folder.path());
   report.write();
   folder.publish();
-  return {target / kMark.file, report.faults(), report.findings_text()};
+  return {target / kMark.file, report.faults(), report.findings_text(), report.advice_text()};
 }
 
 }  // namespace terrabench

@@ -67,7 +67,7 @@ Document ReportParts::pictures(const std::vector<ShownPicture>& shown) {
 }
 
 bool ReportParts::write_ground_page(const Paper& paper, const PageLayout& layout, Document remarks,
-                                    std::string elsewhere, Link section) {
+                                    std::string elsewhere, std::vector<Link> links) {
   Document page{Heading{1, "Ground " + layout.label, "top"}, Paragraph{layout.about}};
   append(page, std::move(remarks));
   const std::size_t empty = page.size();
@@ -87,8 +87,7 @@ bool ReportParts::write_ground_page(const Paper& paper, const PageLayout& layout
   add_part("Pictures", "pictures", std::move(shown));
   if (page.size() == empty) return false;
   page.push_back(Heading{2, "Other pages", "pages"});
-  page.push_back(Paragraph{
-      std::move(elsewhere), false, {std::move(section), {"Report", "main"}, {"Ledger", "ledger.*"}}});
+  page.push_back(Paragraph{std::move(elsewhere), false, std::move(links)});
   write_page(out_, ground_page(layout.id), page);
   return true;
 }

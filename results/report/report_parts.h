@@ -29,10 +29,10 @@ class ReportParts {
   // Shows pictures where they lie, outside the report's folder; one gallery, or nothing if all of them are
   // altered or gone.
   Document pictures(const std::vector<ShownPicture>&);
-  // All that belongs to a ground, as a page in both forms. `elsewhere`: what `section` of the main page
-  // holds, as words before the link to it. Returns whether there was anything to show.
+  // All that belongs to a ground, as a page in both forms. `elsewhere`: what other pages hold, as words
+  // before the links to them. Returns whether there was anything to show.
   bool write_ground_page(const Paper&, const PageLayout&, Document remarks, std::string elsewhere,
-                         Link section);
+                         std::vector<Link> links);
 
   // Tables, plots and pictures so far. For the ledger, which links to them.
   LedgerLinks& links() { return links_; }

@@ -78,6 +78,20 @@ TerrainSource from_dem(std::string_view name, const std::string& path) {
   return source;
 }
 
+// With a note of what the user's file holds.
+TerrainSource from_file(const std::string& path) {
+  TerrainSource source = from_dem(path, path);
+  const Heightfield& field = *source.heights;
+  const HeightRange range = height_range(field);
+  const std::string system = name_of_reference_system(field.georeference.crs);
+  source.notes.insert(
+      source.notes.begin(),
+      fmt::format("{} × {} samples, cells of {:.4g} m × {:.4g} m, heights {:.5g}…{:.5g} m, {}", field.width,
+                  field.depth, field.cell_x, field.cell_z, range.lowest, range.highest,
+                  system.empty() ? "no reference system" : system));
+  return source;
+}
+
 TerrainSource from_drawing(std::string_view name) {
   const NamedDrawing drawing = parse_drawing(name.substr(kDrawingPrefix.size()));
   const GreyImage picture = read_grey_png(drawing.file);
@@ -175,7 +189,7 @@ TerrainSource open_terrain(std::string_view name_or_path, std::uint64_t seed) {
   if (name_or_path.starts_with(kDrawingPrefix)) return from_drawing(name_or_path);
   const std::string path(name_or_path);
   if (names_event_file(path)) return events::open_script(read_file(path, events::kMostBytes), path);
-  if (names_dem_file(path)) return from_dem(path, path);
+  if (names_dem_file(path)) return from_file(path);
   for (const TerrainType& type : terrains()) {
     if (type.name == name_or_path) return type.open(seed);
   }

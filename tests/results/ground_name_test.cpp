@@ -15,6 +15,7 @@ using testing::MatchesRegex;
 
 TEST(GroundId, KeepsWhatItCanOfTheFilesName) {
   EXPECT_THAT(ground_id("/home/me/alps-2.tif"), MatchesRegex("alps-2-[0-9a-f]{8}"));
+  EXPECT_THAT(ground_id("dem:/home/me/alps.tif,crop=257x257"), MatchesRegex("alps-[0-9a-f]{8}"));
   EXPECT_THAT(ground_id("drawing:coast.png"), MatchesRegex("drawing_coast-[0-9a-f]{8}"));
   EXPECT_THAT(ground_id("x/Großer <b>&\"' $1.tif"), MatchesRegex("Gro_er_b_1-[0-9a-f]{8}"));
 }
@@ -49,10 +50,17 @@ TEST(GroundLabels, AreFileNamesWithTheFoldersThatTellThemApart) {
   EXPECT_THAT(labels({"hills"}), ElementsAre("hills"));
 }
 
+TEST(GroundLabels, SayWhatPartOfADemWasRead) {
+  EXPECT_THAT(
+      labels({"dem:alps.tif,crop=257x129", "dem:/x/alps.tif,unit=ft,crop=9x5+100+0"}),
+      ElementsAre("alps.tif, its middle 257 × 129", "alps.tif,unit=ft, 9 × 5 from column 100, row 0"));
+}
+
 TEST(GroundLabels, ReplacePathsAlone) {
   EXPECT_EQ(with_label("on /x/a.tif, /x/a.tif's", "/x/a.tif", "x/a.tif"), "on x/a.tif, x/a.tif's");
   EXPECT_EQ(with_label("on hills", "hills", "the hills"), "on hills");
   EXPECT_EQ(with_label("", "/x/a.tif", "a.tif"), "");
+  EXPECT_EQ(with_label("on dem:a.tif,unit=ft", "dem:a.tif,unit=ft", "a.tif,unit=ft"), "on a.tif,unit=ft");
 }
 
 }  // namespace

@@ -123,6 +123,46 @@ TEST_F(DemValues, OptionsReplaceWhatTheFileSays) {
   }
 }
 
+TEST_F(DemValues, ANameCanChooseAPart) {
+  const Dem middle = read(metres(), ",crop=4x2");
+  EXPECT_EQ(middle.heights.width, 4);
+  EXPECT_EQ(middle.heights.depth, 2);
+  EXPECT_EQ(middle.heights.at(0, 0), 111);
+  EXPECT_EQ(middle.heights.georeference.transform[0], kUtm[0] + 30);
+  EXPECT_THAT(middle.notes, Contains("the middle 4×2 of its 6×4 samples"));
+  const Dem corner = read(metres(), ",crop=2x3+4+1");
+  EXPECT_EQ(corner.heights.at(0, 0), 114);
+  EXPECT_EQ(corner.heights.depth, 3);
+  EXPECT_THAT(corner.notes, Contains("2×3 of its 6×4 samples, from column 4 and row 1"));
+  EXPECT_EQ(read_dem_header("dem:" + path_ + ",crop=4x2").width, 4);
+  EXPECT_EQ(cropped(path_, {0, 0, 4, 2, true}), "dem:" + path_ + ",crop=4x2");
+  EXPECT_EQ(cropped("dem:a.tif,unit=ft", {4, 1, 2, 3}), "dem:a.tif,unit=ft,crop=2x3+4+1");
+}
+
+TEST_F(DemValues, APartMustBeSpelledAndLieInside) {
+  metres().write(path_);
+  for (const char* const part : {"4", "4x", "x2", "4x2+1", "4x2+1+1+1", "0x2", "4x-2", "4x2+-1+0", "4*2"}) {
+    const Failure failure = refused("dem:" + path_ + ",crop=" + part);
+    EXPECT_EQ(failure.code, ExitCode::kUsage) << part;
+    EXPECT_THAT(failure.what, HasSubstr("WIDTHxDEPTH+COLUMN+ROW")) << part;
+  }
+  for (const char* const part : {"7x2", "4x2+3+0", "4x2+0+3"}) {
+    const Failure failure = refused("dem:" + path_ + ",crop=" + part);
+    EXPECT_EQ(failure.code, ExitCode::kUsage) << part;
+    EXPECT_THAT(failure.what, HasSubstr("does not lie inside its 6×4")) << part;
+  }
+  DemOptions cropped_before;
+  cropped_before.window = {0, 0, 2, 2};
+  EXPECT_EQ(failure_of([&] { (void)read_dem("dem:" + path_ + ",crop=4x2", cropped_before); }).code,
+            ExitCode::kUsage);
+}
+
+TEST(ReadableDem, HasThePartInWords) {
+  EXPECT_EQ(readable_dem("dem:my.tif,crop=257x129"), "my.tif, its middle 257 × 129");
+  EXPECT_EQ(readable_dem("my.tif,crop=9x5+100+0,unit=ft"), "my.tif, 9 × 5 from column 100, row 0,unit=ft");
+  for (const char* const other : {"my.tif", "a,crop=b.tif", "caves"}) EXPECT_EQ(readable_dem(other), other);
+}
+
 TEST_F(DemValues, ANameWithOptionsIsATerrain) {
   RasterFile file = metres();
   file.bands = 2;

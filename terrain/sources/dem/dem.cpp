@@ -10,8 +10,6 @@
 
 #include "terrain/error.h"
 #include "terrain/memory.h"
-#include "terrain/number.h"
-#include "terrain/parameters.h"
 #include "terrain/sources/dem/band_reader.h"
 #include "terrain/sources/dem/gdal_session.h"
 #include "terrain/sources/dem/height_values.h"
@@ -25,7 +23,13 @@ std::string size_text(std::uint64_t width, std::uint64_t depth) { return fmt::fo
 // The pixels asked for, in the file's own order.
 DemWindow choose_window(GDALDataset& dataset, const DemWindow& asked, const std::string& where) {
   const int width = dataset.GetRasterXSize(), depth = dataset.GetRasterYSize();
-  if (asked.width == 0 && asked.depth == 0 && asked.x == 0 && asked.y == 0) return {0, 0, width, depth};
+  if (asked.whole()) return {0, 0, width, depth};
+  if (asked.in_middle) {
+    return choose_window(dataset,
+                         {std::max(0, width - asked.width) / 2, std::max(0, depth - asked.depth) / 2,
+                          asked.width, asked.depth},
+                         where);
+  }
   if (asked.x < 0 || asked.y < 0 || asked.width < 1 || asked.depth < 1 || asked.width > width - asked.x ||
       asked.depth > depth - asked.y) {
     throw usage_error(
@@ -168,6 +172,13 @@ struct Opened {
   Plan plan;
 };
 
+std::string window_note(const Opened& opened, const DemWindow& asked) {
+  const std::string whole = size_text(opened.dataset->GetRasterXSize(), opened.dataset->GetRasterYSize());
+  const std::string part = size_text(asked.width, asked.depth);
+  if (asked.in_middle) return fmt::format("the middle {} of its {} samples", part, whole);
+  return fmt::format("{} of its {} samples, from column {} and row {}", part, whole, asked.x, asked.y);
+}
+
 // The field that the plan reads first, without its heights.
 Heightfield planned_field(const Opened& opened) {
   Heightfield field;
@@ -202,6 +213,7 @@ Dem read(const std::string& path, const DemOptions& options, Progress* progress)
   } else {
     opened.reader.read_whole(field.heights.data(), progress);
   }
+  if (!options.window.whole()) dem.notes.push_back(window_note(opened, options.window));
   note_holes(opened.reader.tally(), window, where, dem.notes);
   turn(opened.placement, field);
   if (field.width != plan.width || field.depth != plan.depth) field = resample(field, plan.width, plan.depth);
@@ -246,52 +258,6 @@ DemHeader read_dem_header(const std::string& name, const DemOptions& options) {
   header.format = opened.format();
   header.too_large = size_fault(opened.plan, dem.options, opened.reader.buffer_bytes(opened.plan.reduced));
   return header;
-}
-
-namespace {
-
-constexpr std::string_view kAsStored = "as stored";
-constexpr std::array<std::string_view, 3> kEncodings = {"numbers", "terrarium", "mapbox"};
-
-std::span<const ParameterSpec> specs() {
-  static const std::vector<std::string_view> units = [] {
-    std::vector<std::string_view> names{kAsStored};
-    names.insert(names.end(), height_units().begin(), height_units().end());
-    return names;
-  }();
-  static const std::array all{
-      ParameterSpec{"band", std::int64_t{0}, "", "counted from 1", 1, 65535},
-      ParameterSpec{"nodata", std::string(), "", "the number that stands for no height, or none"},
-      choice("unit", units, "of the heights"),
-      choice("encoding", kEncodings, "of heights as colours"),
-  };
-  return all;
-}
-
-// NaN for "none".
-double parse_no_data(const std::string& text) {
-  if (text == "none") return std::nan("");
-  const std::optional<double> value = parse_number<double>(text);
-  if (!value) {
-    throw usage_error(fmt::format("nodata must be a number or none, got '{}'", text), kDemPrefix,
-                      "such as nodata=-9999");
-  }
-  return *value;
-}
-
-}  // namespace
-
-NamedDem parse_dem(std::string_view name, const DemOptions& options) {
-  if (!name.starts_with(kDemPrefix)) return {std::string(name), options};
-  NamedFile named = parse_named_file(name.substr(kDemPrefix.size()), specs());
-  const Parameters& given = named.options;
-  NamedDem dem{std::move(named.file), options};
-  if (given.integer("band") > 0) dem.options.band = static_cast<int>(given.integer("band"));
-  if (!given.text("nodata").empty()) dem.options.no_data = parse_no_data(given.text("nodata"));
-  if (given.text("unit") != kAsStored) dem.options.unit = given.text("unit");
-  if (const std::size_t k = given.choice("encoding"); k > 0)
-    dem.options.encoding = static_cast<HeightEncoding>(k);
-  return dem;
 }
 
 }  // namespace terrabench

@@ -25,6 +25,9 @@ namespace terrabench {
 // 0 means the whole raster.
 struct DemWindow {
   int x = 0, y = 0, width = 0, depth = 0;
+  bool in_middle = false;  // of the raster, in place of x and y
+
+  bool whole() const { return x == 0 && y == 0 && width == 0 && depth == 0; }
 };
 
 // How a colour picture holds heights, as web maps serve them.
@@ -72,19 +75,26 @@ DemHeader read_dem_header(const std::string& name, const DemOptions& options = {
 
 // The prefix of a path that options follow, as in "dem:lidar.tif,band=2,unit=ft".
 inline constexpr std::string_view kDemPrefix = "dem:";
-// The path and the options of a name: "FILE" or "dem:FILE[,band=N][,nodata=V|none][,unit=U][,encoding=E]".
-// Options that are not named are those given. Throws usage_error.
+// The path and the options of a name: "FILE" or
+// "dem:FILE[,band=N][,nodata=V|none][,unit=U][,encoding=E][,crop=WxD|WxD+X+Y]". Options that are not named
+// are those given. Throws usage_error.
 struct NamedDem {
   std::string path;
   DemOptions options;
 };
 NamedDem parse_dem(std::string_view name, const DemOptions& options = {});
+// The name with the option crop, which it must not have yet.
+std::string cropped(std::string_view name, const DemWindow&);
+// The name without prefix, and its option crop in words: "my.tif, its middle 257 × 257". Other texts stay.
+std::string readable_dem(std::string_view name);
 
 // Float32, compressed without loss, with georeference and no-data value. Written whole or not at all. Throws
 // environment_error. `unit` is that of the values; empty for counts and codes. O(n).
 void write_geotiff(const std::filesystem::path& path, const Heightfield& field,
                    const std::string& unit = "m");
 
+// What readers call the system that a text describes: "EPSG:32611", or its name; empty: none.
+std::string name_of_reference_system(const std::string& wkt);
 // Whether two texts name the same reference system; both empty: yes. Texts of the same system may differ.
 bool same_reference_system(const std::string& a, const std::string& b);
 

@@ -234,6 +234,16 @@ DegreeLengths degree_lengths(double latitude, double semi_major, double inverse_
           kRadiansPerDegree * semi_major * (1 - e2) / (q * std::sqrt(q))};
 }
 
+std::string name_of_reference_system(const std::string& wkt) {
+  OGRSpatialReference reference;
+  if (wkt.empty() || reference.importFromWkt(wkt.c_str()) != OGRERR_NONE) return "";
+  const char *const authority = reference.GetAuthorityName(nullptr), *const code =
+                                                                         reference.GetAuthorityCode(nullptr);
+  if (authority != nullptr && code != nullptr) return fmt::format("{}:{}", authority, code);
+  const char* const name = reference.GetName();
+  return name == nullptr ? "" : name;
+}
+
 bool same_reference_system(const std::string& a, const std::string& b) {
   if (a == b) return true;
   OGRSpatialReference first, second;

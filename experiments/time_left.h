@@ -1,0 +1,35 @@
+// How long a run will still take.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "experiments/stopwatch.h"
+#include "terrain/duration.h"
+
+namespace terrabench {
+
+// Estimates the time left from that of the cases so far, in proportion to RunPlan::seconds.
+class TimeLeft {
+ public:
+  void expect(double weight) { left_ += weight; }
+  void done(double weight) {
+    left_ -= weight;
+    done_ += weight;
+  }
+  double expected() const { return left_; }
+  // ", about 2 min left", once a case of that weight is done too; nothing before it can be known.
+  std::string text(double weight) const {
+    constexpr double kSoonest = 5;  // seconds
+    const double seconds = watch_.seconds(), left = left_ - weight;
+    if (seconds < kSoonest || left <= 0) return "";
+    return fmt::format(", about {} left", duration(seconds * left / (done_ + weight)));
+  }
+
+ private:
+  Stopwatch watch_;
+  double left_ = 0, done_ = 0;
+};
+
+}  // namespace terrabench
