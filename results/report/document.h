@@ -1,6 +1,7 @@
 // A page of the report as a list of blocks, written as HTML and as Markdown. site.h puts pages together.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -68,9 +69,9 @@ struct Gallery {
   std::vector<Picture> pictures;
   bool strip = false;
 };
-// Stacked bars of counts, all to one scale. Markdown: a table.
+// Stacked bars of counts, all to one scale; parts that are 0 in all bars are not shown. Markdown: a table.
 struct Bars {
-  static constexpr std::size_t kParts = 6;
+  static constexpr std::size_t kParts = 7;
   struct Bar {
     Link label;
     std::string anchor;
@@ -78,9 +79,13 @@ struct Bars {
     std::string note;
   };
   std::string id, title, caption;
-  std::array<std::string, kParts> parts;  // names; each has a colour of its own, the last two are hollow
+  std::array<std::string, kParts> parts;  // names; each has a colour of its own, the last three are hollow
   std::string notes;                      // what the bars' notes are about
   std::vector<Bar> bars;
+
+  bool shows(std::size_t part) const {
+    return std::ranges::any_of(bars, [&](const Bar& bar) { return bar.counts[part] > 0; });
+  }
 };
 
 using Block = std::variant<Heading, Paragraph, Facts, Doors, Search, TableBlock, Gallery, Bars>;

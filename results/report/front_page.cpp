@@ -51,7 +51,7 @@ Bars::Bar bar_of(const JudgedResults& results, const Paper& paper) {
   const int drawn = sum(figures);
   return {{paper.title, paper_page(paper) + ".*"},
           paper.id,
-          {stated[0], stated[1], stated[2], stated[3], beyond[0], sum(beyond) - beyond[0]},
+          {stated[0], stated[1], stated[2], stated[3], beyond[0], beyond[1] + beyond[2], beyond[3]},
           drawn == 0 ? "" : fmt::format("{} of {} figures", figures[0], drawn)};
 }
 
@@ -63,7 +63,9 @@ Document opening(const Store& store, const JudgedResults& results) {
       "compares all "
       "methods on the same grounds.";
   const auto counts = count_standings(statements(results.judgements));
-  if (const auto stated = counts.find(Group::kStated); stated != counts.end()) {
+  if (const auto stated = counts.find(Group::kStated);
+      stated != counts.end() &&
+      sum(stated->second) > stated->second[static_cast<std::size_t>(Standing::kNotJudged)]) {
     found += fmt::format(" Of {} statements in numbers or orders, {}.", sum(stated->second),
                          counts_text(stated->second, Group::kStated));
   }
@@ -93,7 +95,7 @@ Bars verdict_bars(const JudgedResults& results, std::span<const Paper* const> pa
       "What holds of each paper",
       "Statements, judged by measurements and nothing else. What we ask beyond a paper is counted apart.",
       {"holds as printed", "holds in another reading", "does not hold", "not judged",
-       "beyond the paper, holds", "beyond the paper, does not"},
+       "beyond the paper, holds", "beyond the paper, does not", "beyond the paper, not judged"},
       "figures that show what the paper's do",
       {}};
   for (const Paper* const paper : papers) bars.bars.push_back(bar_of(results, *paper));
@@ -110,22 +112,22 @@ Doors next_commands() {
            {"Find the experiments and claims of a paper", "terrabench list mrbsp"}}};
 }
 
-Document busy_warning(const Store& store, const JudgedResults& results) {
+Document busy_warning(const Store& store, const JudgedResults& results, bool links) {
   std::vector<Link> busy;
   std::set<std::string> reasons;
   const std::vector<const Provenance*> runs = runs_of(store, results.profile);
   for (const Provenance* const run : runs) {
     if (run->timing_warnings.empty()) continue;
-    busy.push_back({"run " + short_id(run->id), "runs.*#" + run_anchor(run->id)});
+    busy.push_back({"run " + short_id(run->id), "#" + run_anchor(run->id)});
     reasons.insert(run->timing_warnings.begin(), run->timing_warnings.end());
   }
   if (busy.empty()) return {};
+  const std::string more = reasons.size() == 1 ? "" : fmt::format("; and {} more", reasons.size() - 1);
   return {Paragraph{
       fmt::format(
           "Times are uncertain in {} of {} runs, which are marked wherever their numbers stand: {}{}.",
-          busy.size(), runs.size(), *reasons.rbegin(),
-          reasons.size() == 1 ? "" : fmt::format("; and {} more reasons", reasons.size() - 1)),
-      true, std::move(busy)}};
+          busy.size(), runs.size(), *reasons.rbegin(), more),
+      true, links ? std::move(busy) : std::vector<Link>{{"Which runs", "runs.*"}}}};
 }
 
 Document fault_warning(const Store& store, const JudgedResults& results) {

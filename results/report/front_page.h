@@ -20,9 +20,9 @@ Document cover_pictures(const Store&, const JudgedResults&, std::span<const Pape
 Bars verdict_bars(const JudgedResults&, std::span<const Paper* const>);
 Doors next_commands();
 
-// Warns that the machine was busy in runs that records of the profile come from, with links to these runs;
-// nothing if it was in none.
-Document busy_warning(const Store&, const JudgedResults&);
+// Warns that the machine was busy in runs that records of the profile come from, with links to these runs on
+// the same page, or one to the page of runs; nothing if it was in none.
+Document busy_warning(const Store&, const JudgedResults&, bool links);
 // Says why the results cannot be trusted; nothing if they can.
 Document fault_warning(const Store&, const JudgedResults&);
 // Claims that are not judged as expected. Of those of which nothing was measured, the first are named.

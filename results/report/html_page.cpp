@@ -72,9 +72,12 @@ struct HtmlWriter {
     text += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", h.level, escape_html(h.id), escape_html(h.text));
   }
   void operator()(const Paragraph& p) {
-    if (!p.text.empty())
-      text += fmt::format("<p{}>{}</p>\n", p.warning ? " class=\"warning\" role=\"alert\"" : "",
-                          escape_html(p.text));
+    if (p.warning) {
+      text += fmt::format("<div class=\"warning\" role=\"alert\">\n<p>{}</p>\n{}</div>\n",
+                          escape_html(p.text), links_line(p.links));
+      return;
+    }
+    if (!p.text.empty()) text += fmt::format("<p>{}</p>\n", escape_html(p.text));
     text += links_line(p.links);
   }
   void operator()(const Facts& facts) {
@@ -114,8 +117,10 @@ struct HtmlWriter {
         "<figure class=\"bars\" id=\"{}\">\n<figcaption><strong>{}.</strong> {}</figcaption>\n<p "
         "class=\"legend\">",
         escape_html(bars.id), escape_html(bars.title), escape_html(bars.caption));
-    for (std::size_t k = 0; k < Bars::kParts; ++k)
+    for (std::size_t k = 0; k < Bars::kParts; ++k) {
+      if (!bars.shows(k)) continue;
       text += fmt::format("<span><span class=\"part{}\"></span>{}</span> ", k, escape_html(bars.parts[k]));
+    }
     text += "</p>\n<ul>\n";
     for (const Bars::Bar& bar : bars.bars) text += bar_row(bars, bar, most);
     text += "</ul>\n</figure>\n";

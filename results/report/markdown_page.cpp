@@ -21,12 +21,16 @@ std::string links_line(const std::vector<Link>& links) {
 // One row per bar.
 Table table_of(const Bars& bars) {
   Table table{bars.id, bars.title, bars.caption, {{"Paper"}}, {}};
-  for (const std::string& part : bars.parts) table.columns.push_back({part, "", true});
+  for (std::size_t k = 0; k < Bars::kParts; ++k) {
+    if (bars.shows(k)) table.columns.push_back({bars.parts[k], "", true});
+  }
   table.columns.push_back({bars.notes, "", true});
   for (const Bars::Bar& bar : bars.bars) {
     std::vector<Cell>& row = table.rows.emplace_back();
     row.push_back({.text = bar.label.text, .link = bar.label.target, .anchor = bar.anchor});
-    for (const int count : bar.counts) row.push_back({std::to_string(count)});
+    for (std::size_t k = 0; k < Bars::kParts; ++k) {
+      if (bars.shows(k)) row.push_back({std::to_string(bar.counts[k])});
+    }
     row.push_back({bar.note});
   }
   return table;

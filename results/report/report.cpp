@@ -75,7 +75,7 @@ class Report {
     add(opening(store_, results_));
     add(fault_warning(store_, results_));
     for (const std::string& ignored : results_.ignored) document_.push_back(Paragraph{ignored + ".", true});
-    add(busy_warning(store_, results_));
+    add(busy_warning(store_, results_, false));
     add(cover_pictures(store_, results_, shown_));
     document_.push_back(next_commands());
     add_summary();
@@ -183,7 +183,7 @@ class Report {
   }
 
   void add_summary() {
-    document_.push_back(verdict_bars(results_, shown_));
+    if (!shown_.empty()) document_.push_back(verdict_bars(results_, shown_));
     document_.push_back(
         Paragraph{"", false, {{"Ledger: every statement, measurement and verdict", "ledger.*"}}});
     document_.push_back(Search{"Find claims with all of these words:", "ledger.*"});
@@ -294,6 +294,7 @@ class Report {
   // Where the numbers come from, and what has none.
   void add_runs() {
     Document page{Heading{1, "Runs", "top"}};
+    append(page, busy_warning(store_, results_, true));
     write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
     page.push_back(
         Paragraph{"Every case with its seed, its terrain, that terrain's checksum and its parameters:",

@@ -101,14 +101,16 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
 
 TEST(DocumentTest, BarsSayTheirNumbersInWords) {
   const Bars bars{"b",           "Bars",
-                  "c",           {"a", "b", "c", "d", "e", "f"},
-                  "of pictures", {{{"<P>", "p.html"}, "p", {3, 0, 1, 0, 0, 0}, "2 of 2"}}};
+                  "c",           {"a", "b", "c", "d", "e", "f", "g"},
+                  "of pictures", {{{"<P>", "p.html"}, "p", {3, 0, 1, 0, 0, 0, 0}, "2 of 2"}}};
   const std::string page = html(Document{bars}), text = markdown(Document{bars});
   for (const char* const part : {"aria-label=\"3 a, 1 c\"", "id=\"p\"", "<a href=\"p.html\">&lt;P&gt;</a>",
                                  "flex-grow:3", ">3</span>", "2 of 2"})
     EXPECT_THAT(page, HasSubstr(part));
   EXPECT_THAT(page, Not(HasSubstr(">0</span>")));
-  EXPECT_THAT(text, HasSubstr("[<a id=\"p\"></a>&lt;P&gt;](p.html) | 3 | 0 | 1 | 0 | 0 | 0 | 2 of 2 |"));
+  EXPECT_THAT(text, HasSubstr("[<a id=\"p\"></a>&lt;P&gt;](p.html) | 3 | 1 | 2 of 2 |"));
+  EXPECT_THAT(page, HasSubstr("class=\"part2\"></span>c</span>"));
+  EXPECT_THAT(page, Not(HasSubstr("class=\"part1\"></span>b</span>"))) << "no bar has such a part";
 }
 
 TEST(DocumentTest, ALongTableHasAFieldThatFiltersIt) {

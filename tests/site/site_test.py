@@ -14,7 +14,8 @@ import sys
 import urllib.parse
 from pathlib import Path
 
-from browser import Browser
+sys.dont_write_bytecode = True  # none in the source tree
+from browser import Browser  # noqa: E402
 
 PROGRAM, RESULTS, FOLDER = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]).resolve()
 PICTURES = Path(sys.argv[4]).resolve() if len(sys.argv) > 4 else None
