@@ -62,6 +62,7 @@ struct Picture {
   std::string target = {};  // where a click leads; empty: to the file
   // HTML: any two of these can be laid over each other, with a slider between them. Needs the script.
   std::vector<NamedPanel> panels = {};
+  int width = 0, height = 0;  // pixels, so that the page knows its place before it is loaded; 0: not known
 };
 // Pictures side by side where they fit; a single picture is wide. In a strip all have one shape, which may
 // cut their borders off.

@@ -127,19 +127,17 @@ struct HtmlWriter {
   }
 
  private:
-  // Plots are objects, so that they show their values under the pointer.
   void add(const Picture& picture) {
     const std::string file = escape_html(picture.file), title = escape_html(picture.title),
                       caption = escape_html(picture.caption);
-    text += fmt::format("<figure{}{}>\n", id_attribute(picture.anchor), panels_attribute(picture.panels));
-    if (picture.file.ends_with(".svg")) {
-      text += fmt::format(
-          "<object type=\"image/svg+xml\" data=\"{}\" role=\"img\" aria-label=\"{}: {}\"></object>\n", file,
-          title, caption);
-    } else {
-      text += fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"{}: {}\" loading=\"lazy\"></a>\n",
-                          picture.target.empty() ? file : escape_html(picture.target), file, title, caption);
-    }
+    const std::string size =
+        picture.width == 0 ? "" : fmt::format(" width=\"{}\" height=\"{}\"", picture.width, picture.height);
+    text += fmt::format(
+        "<figure{}{}>\n<div class=\"{}\"><a href=\"{}\"><img src=\"{}\" alt=\"{}: {}\"{} "
+        "loading=\"lazy\"></a></div>\n",
+        id_attribute(picture.anchor), panels_attribute(picture.panels),
+        picture.file.ends_with(".svg") ? "plot" : "picture",
+        picture.target.empty() ? file : escape_html(picture.target), file, title, caption, size);
     text += fmt::format("<figcaption><strong>{}.</strong> {}</figcaption>\n{}</figure>\n", title, caption,
                         links_line(picture.links));
   }

@@ -99,3 +99,22 @@ for (const figure of document.querySelectorAll('[data-panels]')) {
   details.className = 'compare';
   figure.append(details);
 }
+
+// A plot shows its values under the pointer if it is an object. As images they load later and print better, so that only
+// those are changed that come into view.
+const toObject = (link) => {
+  const [image, object] = [link.querySelector('img'), document.createElement('object')];
+  Object.assign(object, { type: 'image/svg+xml', data: image.src, className: 'loading', role: 'img', ariaLabel: image.alt });
+  object.addEventListener('load', () => {
+    object.className = '';
+    link.remove();
+  });
+  link.after(object);
+};
+const seen = new IntersectionObserver((entries) => {
+  for (const entry of entries.filter((each) => each.isIntersecting)) {
+    seen.unobserve(entry.target);
+    toObject(entry.target);
+  }
+});
+for (const link of document.querySelectorAll('.plot a')) seen.observe(link);

@@ -108,7 +108,14 @@ Document ReportParts::plots(const Paper& paper, std::string_view page) {
     links_.shown.insert(layout.id);
     std::vector<Link> links = sources(filled.runs, filled.records);
     links.insert(links.begin(), {"SVG", file});
-    blocks.push_back(Gallery{{{layout.title, layout.caption, file, std::move(links), layout.id}}});
+    const PlotSize size = screen_size(filled.plot);
+    blocks.push_back(Gallery{{{.title = layout.title,
+                               .caption = layout.caption,
+                               .file = file,
+                               .links = std::move(links),
+                               .anchor = layout.id,
+                               .width = size.width,
+                               .height = size.height}}});
   }
   return blocks;
 }

@@ -91,7 +91,7 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
   EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
   EXPECT_THAT(page, HasSubstr("<li><a href=\"#part\">Part</a></li>"));
   EXPECT_THAT(page, HasSubstr("<figure id=\"p.p\">"));
-  EXPECT_THAT(page, HasSubstr("aria-label=\"P: c\""));
+  EXPECT_THAT(page, HasSubstr("alt=\"P: c\""));
   EXPECT_THAT(page, Not(HasSubstr("http")));
   EXPECT_THAT(page, Not(HasSubstr("<y>")));
   const std::string text = markdown(document);

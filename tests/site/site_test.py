@@ -156,6 +156,22 @@ def check_slider(browser, report):
     expect(boxes[0] != boxes[1], f"the slider compares a panel with itself: {boxes}")
 
 
+def check_plots(browser, report):
+    """A plot that comes into view becomes an object, whose points have titles."""
+    browser.open((report / "paper-hybrid.html").as_uri())
+    shown = browser.evaluate("""new Promise((done) => {
+      const plot = document.querySelector('.plot');
+      new MutationObserver(() => plot.children.length === 1 && done(plot.firstElementChild.data))
+        .observe(plot, { childList: true });
+      plot.scrollIntoView();
+      setTimeout(() => done(null), 10000);
+    })""")
+    expect(shown, "the first plot stays an image")
+    if shown:
+        text = Path(urllib.parse.unquote(urllib.parse.urlparse(shown).path)).read_text()
+        expect(re.search("<title>[^<]* · [^<]*: [0-9]", text), f"{shown} shows no values")
+
+
 def check_checks(browser):
     """A page with every fault that the checks look for."""
     page = FOLDER / "faults.html"
@@ -190,6 +206,7 @@ def main():
             check_page(browser, report, name)
         check_scripts(browser, report)
         check_slider(browser, report)
+        check_plots(browser, report)
         check_checks(browser)
         check_without_scripts(browser, report)
     finally:
