@@ -113,6 +113,13 @@ Cause cause_from(const TomlValue& node) {
   return cause;
 }
 
+Cover cover_from(const TomlValue& node) {
+  TomlTable entry(node);
+  Cover cover{entry.text("figure"), entry.text("shows")};
+  entry.refuse_unknown();
+  return cover;
+}
+
 Reference reference_from(const TomlValue& node) {
   TomlTable entry(node);
   Reference reference;
@@ -290,6 +297,7 @@ Paper parse_claims(std::string_view text, const std::string& origin) {
   Paper paper{entry.text("paper"), entry.text("title"), {}, "", {}, {}, {}};
   if (entry.has("reference")) paper.reference = reference_from(entry.get("reference"));
   paper.source = paper.reference ? entry.text_or("source", "") : entry.text("source");
+  if (entry.has("cover")) paper.cover = cover_from(entry.get("cover"));
   const bool beyond = is_beyond(entry, false);
   const toml::node* of_last = nullptr;  // elements of one `each` follow each other
   std::size_t first = 0;

@@ -142,6 +142,11 @@ struct Reference {
   int year = 0;             // 0: not stated
 };
 
+// A figure for the report's first screen. Both empty: none.
+struct Cover {
+  std::string figure, shows;  // id; what is seen, in one sentence
+};
+
 struct ClaimsFile {
   std::string text, origin;  // origin: its name, for error messages
 };
@@ -158,6 +163,7 @@ struct Paper {
   // The claims file, if it has [further]: its layouts are read again for grounds that it does not name.
   std::optional<ClaimsFile> further = {};
   std::vector<Cause> causes = {};
+  Cover cover = {};
 };
 
 // The five papers and the comparison across them, in this order. Parsed once.

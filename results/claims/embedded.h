@@ -11,7 +11,7 @@ namespace terrabench {
 std::span<const EmbeddedFile> embedded_claims();
 // results/report/report.css
 std::span<const EmbeddedFile> embedded_style();
-// results/report/filter.js
+// results/report/report.js
 std::span<const EmbeddedFile> embedded_script();
 
 // results/reference/report/findings.json

@@ -46,7 +46,7 @@ struct TableLayout {
   std::string id, title, caption, experiment, rows_title;
   std::vector<Row> rows;
   std::vector<Column> columns;
-  std::string page = {};  // id of the page that shows it; empty: the report's main page
+  std::string page = {};  // id of the page that shows it; empty: its paper's page
 };
 // The metric with "<name>" replaced by the row's text; empty for a row without it.
 std::string for_row(std::string metric, const TableLayout::Row&);
@@ -68,7 +68,7 @@ struct PlotLayout {
   std::string id, title, caption;
   PlotAxis x, y;
   std::vector<Series> series;
-  std::string page = {};  // id of the page that shows it; empty: the report's main page
+  std::string page = {};  // id of the page that shows it; empty: its paper's page
   // Of a plot of stacked bars: a bar per row, from the top, with a heading before the first of each group,
   // the rows' text `group`. Each series is a part, whose metric is read for the row as a table's column is;
   // the x of its cases is the number of the row. Bars are measured along x.

@@ -64,6 +64,13 @@ Style measured_style(std::size_t number) {
   return style;
 }
 
+SvgDevice* device_of(vtkContext2D* painter) { return SvgDevice::SafeDownCast(painter->GetDevice()); }
+
+// "Time: 0.12 ms".
+std::string value_text(const PlotAxis& axis, double value) {
+  return fmt::format("{}: {}", axis.label, format_quantity(value, axis.unit));
+}
+
 // A line with error bars; the chart's coordinates are ours (already logarithms where the axis is
 // logarithmic).
 class ErrorBarLine : public vtkPlotLine {
@@ -71,14 +78,19 @@ class ErrorBarLine : public vtkPlotLine {
   static ErrorBarLine* New();
   vtkTypeMacro(ErrorBarLine, vtkPlotLine)
 
-      void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
+      void set_hints(std::vector<std::string> hints) {
+    hints_ = std::move(hints);
+  }
+  void set_bars(std::vector<std::array<float, 3>> bars, float cap) {
     bars_ = std::move(bars);
     cap_ = cap;
   }
   bool Paint(vtkContext2D* painter) override {
+    device_of(painter)->set_hints(hints_);
     // VTK warns about a line through one point, so only its marker is drawn.
     const bool painted =
         GetInput()->GetNumberOfRows() < 2 ? vtkPlotPoints::Paint(painter) : vtkPlotLine::Paint(painter);
+    device_of(painter)->set_hints({});
     painter->ApplyPen(Pen);
     painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
     painter->GetPen()->SetWidth(1.8F);
@@ -95,6 +107,7 @@ class ErrorBarLine : public vtkPlotLine {
   ErrorBarLine() = default;
 
  private:
+  std::vector<std::string> hints_;          // of the points
   std::vector<std::array<float, 3>> bars_;  // x, low, high
   float cap_ = 0;
 };
@@ -145,12 +158,17 @@ void set_points(vtkPlot* plot, const std::vector<std::array<float, 2>>& points) 
 
 // `above`: the number of series drawn later. Lines that coincide can all be seen, since each is wider than
 // those above it, with larger markers.
-void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style, std::size_t above,
-                const AxisScale& x, const AxisScale& y) {
+void add_series(vtkChartXY* chart, const Plot& plot, const PlotSeries& series, const Style& style,
+                std::size_t above, const AxisScale& x, const AxisScale& y) {
   std::vector<std::array<float, 2>> points;
+  std::vector<std::string> hints;
   std::vector<std::array<float, 3>> bars;
   for (const PlotPoint& point : series.points) {
     points.push_back({static_cast<float>(x.chart(point.x)), static_cast<float>(y.chart(point.y))});
+    hints.push_back(
+        fmt::format("{} · {} · {}", series.label, value_text(plot.x, point.x), value_text(plot.y, point.y)));
+    if (point.low < point.high)
+      hints.back() += fmt::format(" [{}, {}]", format_number(point.low), format_number(point.high));
     if (point.low < point.high && (!y.log || point.low > 0)) {
       bars.push_back({static_cast<float>(x.chart(point.x)), static_cast<float>(y.chart(point.low)),
                       static_cast<float>(y.chart(point.high))});
@@ -158,6 +176,7 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, const Style& style,
   }
   vtkNew<ErrorBarLine> line;
   set_points(line, points);
+  line->set_hints(std::move(hints));
   line->SetLabel("\u00a0" + series.label);  // VTK leaves no room between the legend's symbol and its text
   line->SetColor(style.colour[0], style.colour[1], style.colour[2], 255);
   const auto wider = static_cast<float>(above);
@@ -178,6 +197,7 @@ class BarParts : public vtkPlotLine {
       struct Part {
     float from, to, y;
     std::string words;  // after the end; may be empty
+    std::string hint;   // under the pointer
   };
   void set_parts(std::vector<Part> parts, int font) {
     parts_ = std::move(parts);
@@ -190,6 +210,7 @@ class BarParts : public vtkPlotLine {
     painter->GetBrush()->SetColor(Pen->GetColorObject());
     painter->ApplyTextProp(text_);
     for (const Part& part : parts_) {
+      device_of(painter)->set_hints({part.hint});
       painter->DrawRect(part.from, part.y - kThick / 2, part.to - part.from, kThick);
       if (!part.words.empty()) painter->DrawString(part.to, part.y, part.words.c_str());
     }
@@ -217,14 +238,16 @@ vtkStandardNewMacro(BarParts)
 constexpr int kWordsAfterBar = 9;  // letters for which there is room
 
 // `last`: whether the parts end their bars, after which the bar's length is printed.
-void add_parts(vtkChartXY* chart, const PlotSeries& series, std::size_t number, const AxisScale& x, int font,
-               bool last) {
+void add_parts(vtkChartXY* chart, const Plot& plot, const PlotSeries& series, std::size_t number,
+               const AxisScale& x, int font, bool last) {
   std::vector<BarParts::Part> parts;
   std::vector<std::array<float, 2>> ends;
   for (const PlotPoint& point : series.points) {
     const double from = x.log && point.low <= 0 ? x.low : x.chart(point.low);
     parts.push_back({static_cast<float>(from), static_cast<float>(x.chart(point.x)),
-                     static_cast<float>(-point.y), last ? "\u00a0" + format_number(point.x) : ""});
+                     static_cast<float>(-point.y), last ? "\u00a0" + format_number(point.x) : "",
+                     fmt::format("{} · {} · {}", plot.rows[static_cast<std::size_t>(point.y)], series.label,
+                                 value_text(plot.x, point.x - point.low))});
     ends.push_back({parts.back().to, parts.back().y});
   }
   const Style& style = kStyles[kPartStyles[number % kPartStyles.size()]];
@@ -275,12 +298,12 @@ void set_legend(vtkChartLegend* legend, int font) {
   legend->GetPen()->SetColor(200, 200, 200);
 }
 
-void add_all(vtkChartXY* chart, const std::vector<PlotSeries>& all, bool bars, const AxisScale& x,
+void add_all(vtkChartXY* chart, const Plot& plot, const std::vector<PlotSeries>& all, const AxisScale& x,
              const AxisScale& y, int font) {
   std::size_t measured = 0, reported = 0;
   for (const PlotSeries& series : all) {
-    if (bars) {
-      add_parts(chart, series, measured++, x, font, &series == &all.back());
+    if (!plot.rows.empty()) {
+      add_parts(chart, plot, series, measured++, x, font, &series == &all.back());
       continue;
     }
     const Style style =
@@ -291,7 +314,7 @@ void add_all(vtkChartXY* chart, const std::vector<PlotSeries>& all, bool bars, c
     const std::ptrdiff_t above = std::count_if(&series + 1, all.data() + all.size(),
                                                [](const PlotSeries& s) { return !s.points.empty(); });
     if (!series.points.empty())
-      add_series(chart, series, style, static_cast<std::size_t>(std::min(above, kMostAbove)), x, y);
+      add_series(chart, plot, series, style, static_cast<std::size_t>(std::min(above, kMostAbove)), x, y);
   }
 }
 
@@ -325,7 +348,7 @@ std::string plot_svg(const Plot& plot, const PlotSize& size) {
   chart->SetSize(vtkRectf(0, 0, static_cast<float>(size.width) - 12, static_cast<float>(size.height) - 8));
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), plot.x, x, size.font);
   set_axis(chart->GetAxis(vtkAxis::LEFT), plot.y, y, size.font, plot.rows);
-  add_all(chart, all, bars, x, y, size.font);
+  add_all(chart, plot, all, x, y, size.font);
   chart->SetShowLegend(true);
   set_legend(chart->GetLegend(), size.font);
 

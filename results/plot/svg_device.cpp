@@ -48,6 +48,7 @@ vtkStandardNewMacro(SvgDevice)
   ViewportRect.Set(0, 0, width, height);
   body_.clear();
   group_.clear();
+  hints_.clear();
   defs_.clear();
   clips_ = 0;
   clipping_ = false;
@@ -83,6 +84,12 @@ void SvgDevice::emit(const std::string& element) {
     body_ += fmt::format("<g clip-path=\"url(#{})\">\n{}\n{}", clip_, element, kEnd);
     group_ = clip_;
   }
+}
+
+void SvgDevice::emit_with_hint(const std::string& tag, const std::string& attributes) {
+  if (hints_.empty()) return emit(fmt::format("<{}{}/>", tag, attributes));
+  emit(fmt::format("<{0}{1}><title>{2}</title></{0}>", tag, attributes, escape_html(hints_.back())));
+  hints_.pop_back();
 }
 
 std::string SvgDevice::stroke() const {
@@ -148,17 +155,18 @@ void SvgDevice::DrawMarkers(int shape, bool, float* points, int n, unsigned char
       return text;
     };
     if (shape == VTK_MARKER_SQUARE) {
-      emit(fmt::format("<path d=\"{}Z\"{}/>", outline({{-.9, -.9}, {.9, -.9}, {.9, .9}, {-.9, .9}}), paint));
+      emit_with_hint(
+          "path", fmt::format(" d=\"{}Z\"{}", outline({{-.9, -.9}, {.9, -.9}, {.9, .9}, {-.9, .9}}), paint));
     } else if (shape == VTK_MARKER_DIAMOND) {
-      emit(
-          fmt::format("<path d=\"{}Z\"{}/>", outline({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}}), paint));
+      emit_with_hint("path", fmt::format(" d=\"{}Z\"{}",
+                                         outline({{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}}), paint));
     } else if (shape == VTK_MARKER_CROSS || shape == VTK_MARKER_PLUS) {
       const double a = shape == VTK_MARKER_CROSS ? 0.8 : 0, b = shape == VTK_MARKER_CROSS ? 0.8 : 1.1;
       const std::string one = outline({{-b, -a}, {b, a}});
-      emit(fmt::format("<path d=\"{}{}\"{}/>", one, outline({{-a, b}, {a, -b}}), lines));
+      emit_with_hint("path", fmt::format(" d=\"{}{}\"{}", one, outline({{-a, b}, {a, -b}}), lines));
     } else {
-      emit(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>", number(p.x), number(p.y), number(r),
-                       paint));
+      emit_with_hint("circle", fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\"{}", number(p.x), number(p.y),
+                                           number(r), paint));
     }
   }
 }
@@ -168,7 +176,7 @@ void SvgDevice::DrawQuad(float* points, int n) {
 }
 
 void SvgDevice::DrawColoredPolygon(float* points, int n, unsigned char*, int) {
-  if (n > 2) emit(fmt::format("<path d=\"{}Z\"{} stroke=\"none\"/>", path(points, n), fill()));
+  if (n > 2) emit_with_hint("path", fmt::format(" d=\"{}Z\"{} stroke=\"none\"", path(points, n), fill()));
 }
 
 void SvgDevice::DrawString(float* point, const vtkStdString& text) {

@@ -24,6 +24,9 @@ class SvgDevice : public vtkContextDevice2D {
 
       void start(int width, int height);  // discards what was painted
   std::string svg(const std::string& title) const;
+  // What the markers and filled polygons that are drawn next show under the pointer, one by one; the others
+  // show nothing.
+  void set_hints(std::vector<std::string> hints) { hints_ = {hints.rbegin(), hints.rend()}; }
 
   void DrawPoly(float* points, int n, unsigned char* colors, int components) override;
   void DrawLines(float* points, int n, unsigned char* colors, int components) override;
@@ -74,9 +77,11 @@ class SvgDevice : public vtkContextDevice2D {
   std::string fill() const;
   std::string path(const float* points, int n) const;
   void emit(const std::string& element);
+  void emit_with_hint(const std::string& tag, const std::string& attributes);
 
   std::string body_, defs_, clip_;
-  std::string group_;  // the clip of the group that ends body_; empty: no group does
+  std::vector<std::string> hints_;  // the next is the last
+  std::string group_;               // the clip of the group that ends body_; empty: no group does
   int clips_ = 0;
   bool clipping_ = false;
   std::vector<double> matrices_;  // nine each

@@ -33,6 +33,19 @@ class Page {
     return document;
   }
 
+  // A row per cause: how many statements do not hold as printed for it.
+  void count_into(Table& table) const {
+    const auto add = [&](const std::string& cause, const std::string& title) {
+      const Table differing = statements_of(cause, title, false);
+      if (differing.rows.empty()) return;
+      table.rows.push_back({{.text = title, .link = "wrong-or-vague.*#" + differing.id},
+                            {paper_.id},
+                            {std::to_string(differing.rows.size())}});
+    };
+    for (const Cause& cause : paper_.causes) add(cause.id, cause.title);
+    add("", "Each for a reason of its own");
+  }
+
   Table vague() const {
     Table table{"vague." + paper_.id,
                 "The paper can be read in several ways",
@@ -100,6 +113,16 @@ class Page {
 };
 
 }  // namespace
+
+Table causes_of_differences(const JudgedResults& results, std::span<const Paper> papers) {
+  Table table{"causes",
+              "What does not hold as printed, and why",
+              "Statements that do not hold, or only in another reading, by their cause.",
+              {{"Cause"}, {"Paper"}, {"Statements", "", true}},
+              {}};
+  for (const Paper& paper : papers) Page(results, paper).count_into(table);
+  return table;
+}
 
 Document discrepancies(const JudgedResults& results, std::span<const Paper> papers) {
   Document document = {Heading{1, std::string(kDiscrepanciesTitle), "top"},

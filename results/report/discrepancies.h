@@ -14,4 +14,7 @@ inline constexpr std::string_view kDiscrepanciesTitle = "Where the papers are wr
 // Links lead into the ledger. Empty if no claim belongs here.
 Document discrepancies(const JudgedResults&, std::span<const Paper>);
 
+// How many of these statements have which cause, with links to that page.
+Table causes_of_differences(const JudgedResults&, std::span<const Paper>);
+
 }  // namespace terrabench

@@ -27,8 +27,10 @@ using ColumnKind = TableLayout::Column::Kind;
 
 const Cell kNothing{"–"};
 
-void note_run(std::vector<std::string>& runs, const Record& record) {
-  if (std::ranges::count(runs, record.run) == 0) runs.push_back(record.run);
+// That the table or plot shows the record.
+void note(auto& filled, const Record& record) {
+  if (std::ranges::count(filled.runs, record.run) == 0) filled.runs.push_back(record.run);
+  filled.records.push_back(&record);
 }
 
 // "skipped" or "not defined"; a dash if the record does not say.
@@ -160,7 +162,7 @@ FilledTable fill(const TableLayout& layout, const Store& store, const JudgedResu
     const Record* const above = std::exchange(before, record);
     const Record* const grown_from = row.new_block ? nullptr : above;
     if (!measured(layout, row, record) && !speaks_alone(layout, row)) continue;
-    if (record != nullptr) note_run(filled.runs, *record);
+    if (record != nullptr) note(filled, *record);
     std::vector<Cell> cells = {{row.label}};
     for (const TableLayout::Column& general : layout.columns) {
       const TableLayout::Column column = for_row(general, row);
@@ -198,7 +200,7 @@ FilledPlot fill_bars(const PlotLayout& layout, const Store& store, const std::st
   for (const TableLayout::Row& row : layout.rows) {
     const std::vector<double> ends = bar_ends(layout, row, store, profile);
     if (ends.empty()) continue;
-    note_run(filled.runs, *store.find(layout.series[0].experiment, row.case_name, profile));
+    note(filled, *store.find(layout.series[0].experiment, row.case_name, profile));
     const std::string of = for_row("<group>", row);
     if (of != group) plot.rows.push_back(group = of);
     const auto number = static_cast<double>(plot.rows.size());
@@ -233,7 +235,7 @@ FilledPlot fill(const PlotLayout& layout, const Store& store, const std::string&
         ++left_out;
         continue;
       }
-      note_run(filled.runs, *record);
+      note(filled, *record);
       if (series.paired) {
         const std::vector<PlotPoint> points = paired_points(*metric, *across, *up, *right);
         line.points.insert(line.points.end(), points.begin(), points.end());

@@ -15,7 +15,8 @@ namespace terrabench {
 
 struct FilledTable {
   Table table;
-  std::vector<std::string> runs;  // that its figures come from; empty when nothing was measured
+  std::vector<std::string> runs;            // that its figures come from; empty when nothing was measured
+  std::vector<const Record*> records = {};  // the cases that it shows, as far as it shows single ones
 };
 // Leaves out rows with neither a measurement nor a figure of the paper; a figure that was not measured is a
 // dash, or the record's word for it, such as "not defined", and one whose unit cannot be converted to the
@@ -25,6 +26,7 @@ FilledTable fill(const TableLayout&, const Store&, const JudgedResults&);
 struct FilledPlot {
   Plot plot;
   std::vector<std::string> runs;
+  std::vector<const Record*> records = {};
 };
 // The label of a series with `slope` gives the exponent of its power law; that of a series with points whose
 // units cannot be converted to the axes' says how many are left out.

@@ -38,20 +38,10 @@ Document faults_of(const Store* reference) {
 }  // namespace
 
 FurtherSection further_section(const Store& store, const std::string& profile, const ReportOptions& options,
-                               std::span<const FurtherGround> grounds, ReportParts& parts,
-                               const std::function<Document(const FurtherGround&)>& remarks) {
+                               std::span<const FurtherGround> grounds, std::span<const PageLayout> pages,
+                               ReportParts& parts) {
   FurtherSection section;
-  for (const FurtherGround& ground : grounds) {
-    const PageLayout& page = ground.page();
-    if (!parts.write_ground_page(ground.paper, page, remarks(ground),
-                                 "Which method is best on this ground, and the machine and code of each run:",
-                                 {{"Which method", "main#grounds"}}))
-      continue;
-    section.pages.push_back(page);
-    for (const auto* const cases : {&page.sheets, &page.pictures}) {
-      for (const ShownPicture& shown : drawn_pictures(store, profile, *cases, ground.label))
-        section.figures.insert(shown.figure->id);
-    }
+  for (const PageLayout& page : pages) {
     std::vector<PageLayout::Drawn> shown = page.sheets;
     if (!page.pictures.empty()) shown.insert(shown.begin(), page.pictures.front());
     for (const PageLayout::Drawn& drawn : shown) {
@@ -61,17 +51,16 @@ FurtherSection further_section(const Store& store, const std::string& profile, c
   }
   std::vector<FilledTable> tables = tables_of_further_grounds(
       grounds, {store, profile}, answers_elsewhere(options.reference), options.purpose);
-  if (section.pages.empty() && tables.empty()) return section;
+  if (pages.empty() && tables.empty()) return section;
   if (!tables.empty()) append(section.blocks, faults_of(options.reference));
   for (const FurtherGround& ground : grounds) append(section.blocks, about(ground, store));
   for (FilledTable& filled : tables) {
     section.advice += advice_text(filled.table);
-    section.blocks.push_back(parts.table(std::move(filled.table), filled.runs));
+    section.blocks.push_back(parts.table(std::move(filled)));
   }
-  if (!section.pages.empty()) {
+  if (!pages.empty())
     section.blocks.push_back(
-        TableBlock{ground_table("further.grounds", "All that was measured there", section.pages), {}});
-  }
+        TableBlock{ground_table("further.grounds", "All that was measured there", pages), {}});
   return section;
 }
 

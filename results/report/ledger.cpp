@@ -20,14 +20,15 @@ namespace {
 class WhereShown {
  public:
   struct Place {
-    std::string_view id, title, page;
+    std::string_view id, title;
+    std::string page;  // stem of the page
   };
 
   // Tables come before plots, both in the papers' order.
   WhereShown(std::span<const Paper> papers, const LedgerLinks& links) {
     for (const Paper& paper : papers) {
       for (const TableLayout& table : paper.tables) {
-        if (links.shown.contains(table.id)) add(table);
+        if (links.shown.contains(table.id)) add(paper, table);
       }
     }
     for (const Paper& paper : papers) {
@@ -36,7 +37,7 @@ class WhereShown {
         for (const PlotLayout::Series& series : plot.series) {
           for (const auto& [x, name] : series.cases) {
             for (const std::string& metric : {series.metric, series.x_metric})
-              add(series.experiment, name, metric, {plot.id, plot.title, plot.page});
+              add(series.experiment, name, metric, {plot.id, plot.title, page_of(paper, plot.page)});
           }
         }
       }
@@ -67,8 +68,12 @@ class WhereShown {
  private:
   static constexpr const char* kAnyMetric = "";
 
-  void add(const TableLayout& table) {
-    const Place place{table.id, table.title, table.page};
+  static std::string page_of(const Paper& paper, const std::string& ground) {
+    return ground.empty() ? paper_page(paper) : ground_page(ground);
+  }
+
+  void add(const Paper& paper, const TableLayout& table) {
+    const Place place{table.id, table.title, page_of(paper, table.page)};
     for (const TableLayout::Row& row : table.rows) {
       for (const auto& [key, value] : row.values) {
         // Other texts of a row do no harm.
@@ -129,7 +134,7 @@ class Rows {
     const auto& [shown, other_metrics] = *place;
     const auto& [id, title, page] = shown;
     return {.text = fmt::format("{}{}", title, other_metrics ? " (same case, other quantities)" : ""),
-            .link = (page.empty() ? "main" : ground_page(page) + ".*") + fmt::format("#{}", id)};
+            .link = fmt::format("{}.*#{}", page, id)};
   }
 
   // The run that was read last, and the lines of measurements.jsonl that were.
@@ -155,7 +160,7 @@ class Rows {
       ++shown;
     }
     if (lines.size() > shown) text += fmt::format(" and {} more", lines.size() - shown);
-    return {.text = text, .link = "main#" + run_anchor(j.runs.back())};
+    return {.text = text, .link = "runs.*#" + run_anchor(j.runs.back())};
   }
 
   void note_line(std::set<std::size_t>& lines, const Record* record) const {
@@ -198,14 +203,12 @@ Table ledger_table(const Store& store, const JudgedResults& results, std::span<c
 
 Document ledger(const Store& store, const JudgedResults& results, std::span<const Paper> papers,
                 const LedgerLinks& links) {
-  std::vector<Link> pages = {{"Report", "main"}};
-  pages.insert(pages.end(), links.grounds.begin(), links.grounds.end());
   Document document = {
       Heading{1, "Ledger", "top"},
       Paragraph{fmt::format("What each paper states, and whether the measurements of profile “{}” agree. {}",
-                            results.profile, standings_sentence(results)),
-                false, std::move(pages)},
-      Heading{2, "Counts", "counts"}, TableBlock{summary_table(results, papers), {}}};
+                            results.profile, standings_sentence(results))},
+      Search{"Find claims with all of these words:", "ledger.*"}, Heading{2, "Counts", "counts"},
+      TableBlock{summary_table(results, papers), {}}};
   for (const Paper& paper : papers) {
     if (results.of(paper).empty()) continue;
     document.push_back(Heading{2, paper.title, paper.id});

@@ -18,7 +18,6 @@ namespace terrabench {
 struct LedgerLinks {
   std::set<std::string> pictures = {};            // files
   std::set<std::string, std::less<>> shown = {};  // ids of the tables and plots that the report contains
-  std::vector<Link> grounds = {};                 // to the pages of single grounds
 };
 
 // One row per claim and sub-row, in the papers' order; the id of a row is its anchor.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
-#include <optional>
 #include <set>
 
 #include "results/claims/judge.h"
@@ -13,9 +12,9 @@
 #include "results/claims/statements.h"
 #include "results/report/citation.h"
 #include "results/report/discrepancies.h"
-#include "results/report/document.h"
 #include "results/report/fill.h"
 #include "results/report/findings_table.h"
+#include "results/report/front_page.h"
 #include "results/report/further_grounds.h"
 #include "results/report/further_section.h"
 #include "results/report/ground_name.h"
@@ -23,6 +22,7 @@
 #include "results/report/report_parts.h"
 #include "results/report/report_tables.h"
 #include "results/report/shown_pictures.h"
+#include "results/report/site.h"
 #include "results/report/unclaimed_cases.h"
 #include "results/store/format.h"
 #include "results/store/new_folder.h"
@@ -31,7 +31,8 @@
 namespace terrabench {
 namespace {
 
-constexpr std::string_view kMainPage = "";  // its name, and TableLayout::page of what stands on it
+constexpr std::string_view kOfPaper = "";  // TableLayout::page of what stands on the paper's page
+constexpr const char *kPapers = "Papers", *kGrounds = "Grounds";  // groups of pages
 
 constexpr FolderMark kMark{"report", "index.html",
                            "<!-- Written by terrabench report: a later one replaces this folder. -->"};
@@ -60,83 +61,41 @@ class Report {
   const std::string& advice_text() const { return advice_; }
 
   void write() {
+    for (const Paper& paper : papers_) {
+      if (has_results(paper)) shown_.push_back(&paper);
+    }
+    for (const Paper* const paper : shown_) add_paper(*paper);
+    write_further_pages();
     if (has_claims()) {
       introduce();
     } else {
       introduce_grounds();
     }
-    for (const Paper& paper : papers_) {
-      if (has_results(paper)) add_paper(paper);
-    }
-    add_unclaimed_cases();
-    add_absences();
-    add_other_pictures();
-    add(provenance(store_));
-    write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
-    document_.push_back(
-        Paragraph{"Every case with its seed, its terrain, that terrain's checksum and its parameters:",
-                  false,
-                  {{"CSV", "tables/inputs.csv"}}});
-    if (has_claims()) write_ledger();
-    write_page(out_, kMainPage, document_, fmt::format("{}\n", kMark.line));
+    add_other_measurements();
+    if (has_claims()) add_ledger();
+    add_runs();
+    site_.add("", "", "Report", std::move(document_));
+    site_.write(out_, fmt::format("{}\n", kMark.line));
   }
 
  private:
   void introduce() {
-    document_.push_back(Heading{1, "Five terrain papers, measured again", "top"});
-    document_.push_back(Paragraph{fmt::format(
-        "Every verdict below is computed from the measurements of profile “{}” and the papers' own figures; "
-        "none is typed in. Each table and picture names the run that it came from. Machine, code and command "
-        "of each run are listed at the end.",
-        results_.profile)});
+    add(opening(store_, results_));
+    add(fault_warning(store_, results_));
     for (const std::string& ignored : results_.ignored) document_.push_back(Paragraph{ignored + ".", true});
-    add_warning(document_);
-    add_check_failures();
+    add(busy_warning(store_, results_, false));
+    add(cover_pictures(store_, results_, shown_));
+    document_.push_back(next_commands());
     add_summary();
+    add(failed_checks(results_));
     if (std::ranges::count(results_.absences, "failed", &Absence::what) > 0) {
       document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
                                     true,
-                                    {{"Which, and why", "#absent"}}});
+                                    {{"Which, and why", "runs.*#absent"}}});
     }
-    document_.push_back(Paragraph{"Every statement with what was measured and the reason of its verdict:",
-                                  false,
-                                  {{"Ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
-    add_discrepancies();
     add_findings();
+    add_discrepancies();
     add_further_grounds();
-  }
-
-  // Claims of which nothing was measured are many after a run on a ground of the user's: the first are named.
-  void add_check_failures() {
-    constexpr std::size_t kNamed = 3;
-    std::vector<std::string> unmeasured;
-    for (const Judgement& judgement : results_.judgements) {
-      if (judgement.check_failure.empty()) continue;
-      if (judgement.verdict == Verdict::kMissing && judgement.runs.empty()) {
-        unmeasured.push_back(judgement.claim->id);
-      } else {
-        document_.push_back(
-            Paragraph{fmt::format("{}: {}.", judgement.claim->id, judgement.check_failure), true});
-      }
-    }
-    if (unmeasured.empty()) return;
-    std::string more;
-    if (unmeasured.size() > kNamed) more = fmt::format(" and {} more claims", unmeasured.size() - kNamed);
-    if (unmeasured.size() > kNamed) unmeasured.resize(kNamed);
-    document_.push_back(Paragraph{fmt::format("Verdict “missing”, since nothing of them was measured: {}{}.",
-                                              fmt::join(unmeasured, ", "), more),
-                                  true,
-                                  {{"All in the ledger", "ledger.html"}, {"as Markdown", "ledger.md"}}});
-  }
-
-  // On the main page and on every ground's.
-  void add_warning(Document& to) const {
-    if (results_.faults.empty()) return;
-    to.push_back(Paragraph{
-        fmt::format("These results cannot be trusted: {} lines or pictures were altered or damaged, "
-                    "or name an unknown run. The first: {}",
-                    results_.faults.size(), without_folder(results_.faults.front())),
-        true});
   }
 
   // The main page shows the part before the heading.
@@ -153,20 +112,19 @@ class Report {
     Document brief{std::move(lines)};
     for (Table& table : findings_tables(rankings)) {
       findings_ += plain_text(table) + "\n";
-      brief.push_back(parts_.table(std::move(table), {}));
+      brief.push_back(parts_.table(std::move(table)));
     }
     Document page{Heading{1, "Findings", "top"}};
     std::ranges::copy(brief, std::back_inserter(page));
     page.push_back(Heading{2, "Every value, with the 95 % interval of each factor", "values"});
     page.push_back(Paragraph{tie_rule()});
     page.push_back(findings(rankings));
-    write_page(out_, "findings", page);
+    site_.add("findings", "", "Findings", std::move(page));
     document_.push_back(Heading{2, "Findings", "findings"});
     add(std::move(brief));
-    document_.push_back(Paragraph{
-        "Every value, and when methods are called tied:",
-        false,
-        {{"Findings", "findings.html"}, {"as Markdown", "findings.md"}, {"as JSON", "findings.json"}}});
+    document_.push_back(Paragraph{"Every value, and when methods are called tied:",
+                                  false,
+                                  {{"Findings", "findings.*"}, {"as JSON", "findings.json"}}});
   }
 
   // Of a folder without them, as after `terrabench advise`, the grounds are all that there is to say.
@@ -181,58 +139,64 @@ class Report {
     document_.push_back(Paragraph{
         "Terrain methods, measured on this ground. Each answer below is computed from the measurements; the "
         "page of the ground has all of them, as tables, curves and pictures."});
-    add_warning(document_);
+    add(fault_warning(store_, results_));
+    add(busy_warning(store_, results_, false));
     add_further_grounds();
   }
 
   // What was measured on grounds that no claims file names.
   void add_further_grounds() {
-    FurtherSection section = further_section(store_, results_.profile, options_, further_, parts_,
-                                             [&](const FurtherGround& g) { return remarks(g.warnings); });
+    FurtherSection section =
+        further_section(store_, results_.profile, options_, further_, further_pages_, parts_);
     if (!section.blocks.empty())
       document_.push_back(Heading{2, has_claims() ? "Further grounds" : "What to take", "grounds"});
     add(std::move(section.blocks));
     if (!has_claims()) add(std::move(section.pictures));
-    further_pages_ = std::move(section.pages);
-    claimed_.merge(section.figures);
     advice_ = std::move(section.advice);
   }
 
-  void write_ledger() {
-    LedgerLinks& links = parts_.links();
-    for (const std::vector<PageLayout>* const pages : {&grounds_, &further_pages_}) {
-      for (const PageLayout& page : *pages)
-        links.grounds.push_back({"Ground " + page.label, ground_page(page.id) + ".*"});
+  void write_further_pages() {
+    for (const FurtherGround& ground : further_) {
+      if (!add_ground_page(ground.paper, ground.page(), ground.warnings)) continue;
+      further_pages_.push_back(ground.page());
+      // Their figures do not stand on the main page, too.
+      for (const auto* const cases : {&ground.page().sheets, &ground.page().pictures}) {
+        for (const ShownPicture& shown : drawn_pictures(store_, results_.profile, *cases, ground.label))
+          claimed_.insert(shown.figure->id);
+      }
     }
-    write_page(out_, "ledger", ledger(store_, results_, papers_, links));
+  }
+
+  void add_ledger() {
+    const LedgerLinks& links = parts_.links();
+    site_.add("ledger", "", "Ledger", ledger(store_, results_, papers_, links));
     write_file(out_ / "tables/ledger.csv", csv(ledger_table(store_, results_, papers_, links)));
   }
 
   void add_discrepancies() {
-    const Document page = discrepancies(results_, papers_);
+    Document page = discrepancies(results_, papers_);
     if (page.empty()) return;
-    write_page(out_, "wrong-or-vague", page);
-    document_.push_back(Paragraph{
-        "Every difference with its reason and the reading that matches:",
-        false,
-        {{std::string(kDiscrepanciesTitle), "wrong-or-vague.html"}, {"as Markdown", "wrong-or-vague.md"}}});
-  }
-
-  // Drops the folder's path: it is private, and changes when the folder is copied.
-  std::string without_folder(std::string text) const {
-    const std::string prefix = store_.folder().string() + "/";
-    const std::size_t at = text.find(prefix);
-    return at == text.npos ? text : text.erase(at, prefix.size());
+    site_.add("wrong-or-vague", "", "Wrong or vague", std::move(page));
+    document_.push_back(Heading{2, "Differences", "differences"});
+    if (Table causes = causes_of_differences(results_, papers_); !causes.rows.empty())
+      document_.push_back(parts_.table(std::move(causes)));
+    document_.push_back(Paragraph{"Every difference with its reason and the reading that matches:",
+                                  false,
+                                  {{std::string(kDiscrepanciesTitle), "wrong-or-vague.*"}}});
   }
 
   void add_summary() {
+    if (!shown_.empty()) document_.push_back(verdict_bars(results_, shown_));
+    document_.push_back(
+        Paragraph{"", false, {{"Ledger: every statement, measurement and verdict", "ledger.*"}}});
+    document_.push_back(Search{"Find claims with all of these words:", "ledger.*"});
     Table table = summary_table(results_, papers_);
+    write_file(out_ / "tables/summary.csv", csv(table));
     for (std::vector<Cell>& row : table.rows) {
-      const auto paper = std::ranges::find(papers_, row[0].text, &Paper::title);
-      if (paper != papers_.end() && has_results(*paper)) row[0].link = "#" + paper->id;
+      const auto paper = std::ranges::find(shown_, row[0].text, &Paper::title);
+      if (paper != shown_.end()) row[0].link = "#" + (*paper)->id;
     }
     write_file(out_ / "tables/summary.md", markdown(table));  // README.md shows it
-    add_table(std::move(table), {});
   }
 
   // True also for a paper with filled tables but no measured claim.
@@ -244,81 +208,78 @@ class Report {
   }
 
   void add_paper(const Paper& paper) {
-    document_.push_back(Heading{2, paper.title, paper.id});
     const std::string reference = paper.reference ? reference_text(*paper.reference) : "";
-    document_.push_back(
-        Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source});
-    add_ground_pages(paper);
-    add(parts_.tables(paper, kMainPage));
-    add(parts_.plots(paper, kMainPage));
-    add_verdicts(paper);
-    add_gallery(paper);
+    Document page{
+        Heading{1, paper.title, "top"},
+        Paragraph{reference + (reference.empty() || paper.source.empty() ? "" : " ") + paper.source}};
+    append(page, verdicts(paper));
+    append(page, grounds_of(paper));
+    append_part(page, {2, "Tables", "tables"}, parts_.tables(paper, kOfPaper));
+    append_part(page, {2, "Plots", "plots"}, parts_.plots(paper, kOfPaper));
+    const std::vector<ShownPicture> shown = claimed_pictures(store_, results_, paper);
+    for (const ShownPicture& picture : shown) claimed_.insert(picture.figure->id);
+    append_part(page, {2, "Figures, in the paper's order", "figures"}, parts_.pictures(shown));
+    site_.add(paper_page(paper), kPapers, paper.id, std::move(page));
   }
 
-  // A page for every ground of which something was measured, and a list of these pages.
-  void add_ground_pages(const Paper& paper) {
+  // A list of the pages of all grounds of which something was measured.
+  Document grounds_of(const Paper& paper) {
     std::vector<PageLayout> written;
     for (const PageLayout& layout : paper.pages) {
       std::vector<std::string> warnings;
       std::string lost = lost_columns(store_, results_.profile, layout.id, layout.label);
       if (!lost.empty()) warnings.push_back(std::move(lost));
-      if (parts_.write_ground_page(
-              paper, layout, remarks(warnings),
-              "The verdicts on these measurements, the other comparisons, and the machine "
-              "and code of each run:",
-              {{paper.title, "main#" + paper.id}, {"Report", "main"}, {"Ledger", "ledger.*"}}))
-        written.push_back(layout);
+      if (add_ground_page(paper, layout, warnings)) written.push_back(layout);
     }
-    if (written.empty()) return;
-    document_.push_back(TableBlock{ground_table(paper.id + ".grounds", "One page per ground", written), {}});
-    grounds_.insert(grounds_.end(), written.begin(), written.end());
+    if (written.empty()) return {};
+    return {TableBlock{ground_table(paper.id + ".grounds", "One page per ground", written), {}}};
   }
 
-  // At the top of a ground's page.
-  Document remarks(const std::vector<std::string>& warnings) const {
+  // Returns whether anything was measured there.
+  bool add_ground_page(const Paper& paper, const PageLayout& layout,
+                       const std::vector<std::string>& warnings) {
     Document remarks{Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)}};
-    add_warning(remarks);
+    append(remarks, fault_warning(store_, results_));
     for (const std::string& warning : warnings) remarks.push_back(Paragraph{warning, true});
-    return remarks;
+    Document page = parts_.ground_page(paper, layout, std::move(remarks));
+    if (page.empty()) return false;
+    site_.add(ground_page(layout.id), kGrounds, layout.label, std::move(page));
+    return true;
   }
 
-  void add_verdicts(const Paper& paper) {
+  // How many statements hold, in a sentence per group.
+  Document verdicts(const Paper& paper) const {
     std::string counts;
     for (const auto& [group, standings] : count_standings(statements(results_.of(paper)))) {
-      counts +=
-          fmt::format("{}{}: {}", counts.empty() ? "" : ". ", name(group), counts_text(standings, group));
+      std::string sentence = fmt::format("{}: {}.", name(group), counts_text(standings, group));
+      sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+      counts += (counts.empty() ? "" : " ") + sentence;
     }
-    if (counts.empty()) return;
-    counts[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(counts[0])));
-    document_.push_back(Heading{3, "Verdicts", paper.id + "-verdicts"});
-    document_.push_back(Paragraph{
-        counts + ".", false, {{"Each statement", "ledger.html#" + paper.id}, {"as Markdown", "ledger.md"}}});
+    if (counts.empty()) return {};
+    return {Paragraph{counts, false, {{"Each statement with its verdict", "ledger.*#" + paper.id}}}};
   }
 
-  void add_gallery(const Paper& paper) {
-    const std::vector<ShownPicture> shown = claimed_pictures(store_, results_, paper);
-    for (const ShownPicture& picture : shown) claimed_.insert(picture.figure->id);
-    add_with_heading({3, "Figures, in the paper's order", paper.id + "-figures"}, parts_.pictures(shown));
-  }
-
+  static void append(Document& to, Document blocks) { std::ranges::move(blocks, std::back_inserter(to)); }
   // Nothing if there are no blocks.
-  void add_with_heading(Heading heading, Document blocks) {
+  static void append_part(Document& to, Heading heading, Document blocks) {
     if (blocks.empty()) return;
-    document_.push_back(std::move(heading));
-    add(std::move(blocks));
+    to.push_back(std::move(heading));
+    append(to, std::move(blocks));
   }
-  void add(Document blocks) { std::ranges::move(blocks, std::back_inserter(document_)); }
+  void add(Document blocks) { append(document_, std::move(blocks)); }
 
-  void add_unclaimed_cases() {
+  // What no claim and no ground's page is about.
+  void add_other_measurements() {
+    Document page{Heading{1, "Other measurements", "top"}};
     Document tables;
-    for (const TableLayout& layout : unclaimed_cases(store_, papers_, further_, results_.profile)) {
-      FilledTable filled = fill(layout, store_, results_);
-      tables.push_back(parts_.table(std::move(filled.table), filled.runs));
-    }
-    add_with_heading({2, "Unclaimed cases", "unclaimed"}, std::move(tables));
+    for (const TableLayout& layout : unclaimed_cases(store_, papers_, further_, results_.profile))
+      tables.push_back(parts_.table(fill(layout, store_, results_)));
+    append_part(page, {2, "Unclaimed cases", "unclaimed"}, std::move(tables));
+    append_part(page, {2, "Terrains, as each representation stores them", "terrains"}, other_pictures());
+    if (page.size() > 1) site_.add("other", "", "Other measurements", std::move(page));
   }
 
-  void add_other_pictures() {
+  Document other_pictures() {
     const GroundLabels labels = labels_of_grounds(store_, results_.profile);
     std::vector<ShownPicture> shown;
     for (const Record& record : store_.records()) {
@@ -330,24 +291,30 @@ class Report {
                          labelled(figure.caption, record, labels)});
       }
     }
-    Document pictures = parts_.pictures(shown);
-    if (pictures.empty()) return;
-    pictures.insert(pictures.begin(),
-                    Paragraph{"The measured terrains, as each representation stores them."});
-    add_with_heading({2, "Terrains", "terrains"}, std::move(pictures));
+    return parts_.pictures(shown);
   }
 
-  void add_table(Table table, const std::vector<std::string>& runs) {
-    document_.push_back(parts_.table(std::move(table), runs));
+  // Where the numbers come from, and what has none.
+  void add_runs() {
+    Document page{Heading{1, "Runs", "top"}};
+    append(page, busy_warning(store_, results_, true));
+    write_file(out_ / "tables/inputs.csv", csv(input_table(store_, results_.profile)));
+    page.push_back(
+        Paragraph{"Every case with its seed, its terrain, that terrain's checksum and its parameters:",
+                  false,
+                  {{"CSV", "tables/inputs.csv"}}});
+    append_part(page, {2, "Without measurements", "absent"}, absent_cases());
+    append(page, provenance(store_));
+    site_.add("runs", "", "Runs", std::move(page));
   }
 
-  void add_absences() {
+  Document absent_cases() {
     Table table = absence_table(results_);
-    if (table.rows.empty()) return;
+    if (table.rows.empty()) return {};
     for (const auto& [ground, label] : labels_of_grounds(store_, results_.profile)) {
       for (std::vector<Cell>& row : table.rows) row.back().text = with_label(row.back().text, ground, label);
     }
-    add_with_heading({2, "Without measurements", "absent"}, {parts_.table(std::move(table), {})});
+    return {parts_.table(std::move(table))};
   }
 
   const Store& store_;
@@ -357,9 +324,11 @@ class Report {
   JudgedResults results_;
   std::vector<FurtherGround> further_;
   ReportParts parts_;
-  Document document_;
+  Site site_;
+  Document document_;                // the main page
+  std::vector<const Paper*> shown_;  // those of which something was measured
   std::string findings_, advice_;
-  std::vector<PageLayout> grounds_, further_pages_;  // those with a page
+  std::vector<PageLayout> further_pages_;  // grounds that have a page
   std::set<std::string>
       claimed_;  // ids of pictures that belong to a claim or stand on a further ground's page
 };

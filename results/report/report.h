@@ -25,11 +25,12 @@ struct ReportOptions {
   std::string purpose = {};  // whose questions are answered for further grounds (advice.h); empty: all
 };
 
-// DIR/report/: index.html, report.md, ground-*.{html,md}, ledger.{html,md},
-// tables/*.csv, figures/*.svg of plots; pictures are shown where they lie, in DIR/figures/. Replaces
-// an earlier report as a whole or not at all; equal measurements give equal bytes. Throws bad_input when the
-// folder holds no results, environment_error when `report` in it is no earlier report, or when the report
-// cannot be written. Not thread-safe. `reference`: a results folder, or none. `profile`: as Store::open().
+// DIR/report/: index.html, report.md, and pages in both forms: paper-*, ground-*, ledger, findings,
+// wrong-or-vague, runs, other; tables/*.csv, figures/*.svg of plots; pictures are shown where they lie, in
+// DIR/figures/. Replaces an earlier report as a whole or not at all; equal measurements give equal bytes.
+// Throws bad_input when the folder holds no results, environment_error when `report` in it is no earlier
+// report, or when the report cannot be written. Not thread-safe. `reference`: a results folder, or none.
+// `profile`: as Store::open().
 WrittenReport write_report(const std::filesystem::path& folder, const std::filesystem::path& reference = {},
                            const std::string& profile = "", const std::string& purpose = "");
 WrittenReport write_report(const Store&, std::span<const Paper>, const ReportOptions& options = {});

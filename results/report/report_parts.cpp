@@ -1,32 +1,89 @@
 #include "results/report/report_parts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <set>
 
 #include "results/plot/plot.h"
-#include "results/report/fill.h"
 #include "results/report/report_tables.h"
 #include "terrain/files.h"
 
 namespace terrabench {
 namespace {
 
-std::vector<Link> run_links(const std::vector<std::string>& runs) {
-  std::vector<Link> links;
-  for (const std::string& run : runs) links.push_back({"run " + short_id(run), "main#" + run_anchor(run)});
-  return links;
+// "12–14, 20 and 7 more" of line numbers in rising order.
+std::string ranges(const std::vector<std::size_t>& lines) {
+  constexpr int kShown = 4;
+  std::string text;
+  int shown = 0;
+  for (std::size_t i = 0; i < lines.size(); ++shown) {
+    if (shown == kShown) return fmt::format("{} and {} more", text, lines.size() - i);
+    std::size_t last = i;
+    while (last + 1 < lines.size() && lines[last + 1] == lines[last] + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", lines[i]);
+    if (last > i) text += fmt::format("–{}", lines[last]);
+    i = last + 1;
+  }
+  return text;
+}
+
+// Whether a shell takes it as one word.
+bool is_plain(std::string_view name) {
+  return std::ranges::all_of(name, [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("._-").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
+// What measures these records again; empty if a name is not plain.
+std::string command_for(const std::vector<const Record*>& records) {
+  std::string command = "terrabench run";
+  std::set<std::string_view> seen;
+  for (const Record* const record : records) {
+    if (!is_plain(record->experiment) || !is_plain(record->profile)) return "";
+    if (seen.insert(record->experiment).second) command += " " + record->experiment;
+  }
+  return command + " --profile " + records.front()->profile;
 }
 
 void append(Document& document, Document blocks) { std::ranges::move(blocks, std::back_inserter(document)); }
 
 }  // namespace
 
-TableBlock ReportParts::table(Table table, const std::vector<std::string>& runs) {
+std::vector<Link> ReportParts::links_to_runs(const std::vector<std::string>& runs) const {
+  std::vector<Link> links;
+  for (const std::string& id : runs) {
+    const Provenance* const run = store_.run(id);
+    const bool busy = run != nullptr && !run->timing_warnings.empty();
+    links.push_back(
+        {fmt::format("run {}{}", short_id(id), busy ? ", times uncertain" : ""), "runs.*#" + run_anchor(id)});
+  }
+  return links;
+}
+
+std::vector<Link> ReportParts::sources(const std::vector<std::string>& runs,
+                                       const std::vector<const Record*>& records) const {
+  std::vector<Link> links = links_to_runs(runs);
+  if (records.empty()) return links;
+  std::set<std::size_t> lines;
+  for (const Record* const record : records) lines.insert(store_.line(*record));
+  links.push_back({fmt::format("measurements.jsonl, line{} {}", lines.size() == 1 ? "" : "s",
+                               ranges({lines.begin(), lines.end()})),
+                   "../measurements.jsonl"});
+  if (std::string command = command_for(records); !command.empty()) links.push_back({std::move(command)});
+  return links;
+}
+
+TableBlock ReportParts::table(FilledTable filled) {
+  Table& table = filled.table;
   const std::string file = "tables/" + file_name(table.id) + ".csv";
   write_file(out_ / file, csv(table));
   links_.shown.insert(table.id);
-  std::vector<Link> links = run_links(runs);
-  links.push_back({"CSV", file});
+  std::vector<Link> links = sources(filled.runs, filled.records);
+  links.insert(links.begin(), {"CSV", file});
   return {std::move(table), std::move(links)};
 }
 
@@ -35,7 +92,7 @@ Document ReportParts::tables(const Paper& paper, std::string_view page) {
   for (const TableLayout& layout : paper.tables) {
     if (layout.page != page) continue;
     FilledTable filled = fill(layout, store_, results_);
-    if (!filled.runs.empty()) blocks.push_back(table(std::move(filled.table), filled.runs));
+    if (!filled.runs.empty()) blocks.push_back(table(std::move(filled)));
   }
   return blocks;
 }
@@ -49,7 +106,16 @@ Document ReportParts::plots(const Paper& paper, std::string_view page) {
     const std::string file = "figures/" + file_name(layout.id) + ".svg";
     write_file(out_ / file, plot_svg(filled.plot));
     links_.shown.insert(layout.id);
-    blocks.push_back(Gallery{{{layout.title, layout.caption, file, run_links(filled.runs), layout.id}}});
+    std::vector<Link> links = sources(filled.runs, filled.records);
+    links.insert(links.begin(), {"SVG", file});
+    const PlotSize size = screen_size(filled.plot);
+    blocks.push_back(Gallery{{{.title = layout.title,
+                               .caption = layout.caption,
+                               .file = file,
+                               .links = std::move(links),
+                               .anchor = layout.id,
+                               .width = size.width,
+                               .height = size.height}}});
   }
   return blocks;
 }
@@ -60,14 +126,14 @@ Document ReportParts::pictures(const std::vector<ShownPicture>& shown) {
     if (!store_.intact(*figure)) continue;
     const std::string file = picture_file(*figure);
     links_.pictures.insert(file);
-    gallery.pictures.push_back({title, caption, file, run_links({record->run})});
+    gallery.pictures.push_back(
+        {title, caption, file, sources({record->run}, {record}), "", "", comparable_panels(figure->layout)});
   }
   if (gallery.pictures.empty()) return {};
   return {std::move(gallery)};
 }
 
-bool ReportParts::write_ground_page(const Paper& paper, const PageLayout& layout, Document remarks,
-                                    std::string elsewhere, std::vector<Link> links) {
+Document ReportParts::ground_page(const Paper& paper, const PageLayout& layout, Document remarks) {
   Document page{Heading{1, "Ground " + layout.label, "top"}, Paragraph{layout.about}};
   append(page, std::move(remarks));
   const std::size_t empty = page.size();
@@ -85,11 +151,7 @@ bool ReportParts::write_ground_page(const Paper& paper, const PageLayout& layout
   for (const PageLayout::Drawn& sheet : layout.sheets) show(std::span(&sheet, 1));
   show(layout.pictures);
   add_part("Pictures", "pictures", std::move(shown));
-  if (page.size() == empty) return false;
-  page.push_back(Heading{2, "Other pages", "pages"});
-  page.push_back(Paragraph{std::move(elsewhere), false, std::move(links)});
-  write_page(out_, ground_page(layout.id), page);
-  return true;
+  return page.size() == empty ? Document() : page;
 }
 
 }  // namespace terrabench

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "results/report/fill.h"
 #include "results/report/ledger.h"
 #include "results/report/shown_pictures.h"
 
@@ -20,8 +21,9 @@ class ReportParts {
   ReportParts(const Store& store, const JudgedResults& results, std::filesystem::path out)
       : store_(store), results_(results), out_(std::move(out)) {}
 
-  // `runs`: ids of those that the table's figures come from; a link leads to the run on the main page.
-  TableBlock table(Table, const std::vector<std::string>& runs);
+  // With links to the runs that the table's figures come from, and the command and the records of these.
+  TableBlock table(FilledTable);
+  TableBlock table(Table table) { return this->table(FilledTable{std::move(table), {}}); }
   // The paper's tables and plots that stand on this page (TableLayout::page), without those of which nothing
   // was measured.
   Document tables(const Paper&, std::string_view page);
@@ -29,15 +31,17 @@ class ReportParts {
   // Shows pictures where they lie, outside the report's folder; one gallery, or nothing if all of them are
   // altered or gone.
   Document pictures(const std::vector<ShownPicture>&);
-  // All that belongs to a ground, as a page in both forms. `elsewhere`: what other pages hold, as words
-  // before the links to them. Returns whether there was anything to show.
-  bool write_ground_page(const Paper&, const PageLayout&, Document remarks, std::string elsewhere,
-                         std::vector<Link> links);
+  // The page with all that belongs to a ground; nothing if nothing of it was measured.
+  Document ground_page(const Paper&, const PageLayout&, Document remarks);
 
   // Tables, plots and pictures so far. For the ledger, which links to them.
   LedgerLinks& links() { return links_; }
 
  private:
+  std::vector<Link> links_to_runs(const std::vector<std::string>& runs) const;
+  std::vector<Link> sources(const std::vector<std::string>& runs,
+                            const std::vector<const Record*>& records) const;
+
   const Store& store_;
   const JudgedResults& results_;
   std::filesystem::path out_;

@@ -49,12 +49,10 @@ Table ground_table(std::string id, std::string title, std::span<const PageLayout
   Table table{std::move(id),
               std::move(title),
               "Each has the tables, plots and pictures that show that ground alone.",
-              {{"Ground"}, {"What it is"}, {"As Markdown"}},
+              {{"Ground"}, {"What it is"}},
               {}};
   for (const PageLayout& layout : layouts) {
-    const std::string page = ground_page(layout.id);
-    table.rows.push_back(
-        {{layout.label, "", page + ".html"}, {layout.about}, {page + ".md", "", page + ".md"}});
+    table.rows.push_back({{layout.label, "", ground_page(layout.id) + ".*"}, {layout.about}});
   }
   return table;
 }

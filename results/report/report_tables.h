@@ -25,9 +25,10 @@ std::string reported_text(const Claim&);
 std::string file_name(std::string_view id);
 // A relative path as part of a link: what is not a letter, a digit or one of "-._~/" is percent-encoded.
 std::string url_path(std::string_view path);
-// The name of a ground's page, without its extension: "ground-caves".
+// The name of the page of a ground or a paper, without its extension: "ground-caves", "paper-ght".
 std::string ground_page(std::string_view ground);
-// The pages of grounds with links to both forms, for the main page.
+inline std::string paper_page(const Paper& paper) { return "paper-" + paper.id; }
+// The pages of grounds, with links.
 Table ground_table(std::string id, std::string title, std::span<const PageLayout>);
 
 // The picture, relative to the report's folder.
@@ -39,7 +40,7 @@ Document provenance(const Store&);
 // Cases without measurements and metrics without a value, by reason.
 Table absence_table(const JudgedResults&);
 Table input_table(const Store&, std::string_view profile);
-// Runs are named by the start of their digest, and have an anchor in the page.
+// Runs are named by the start of their digest, and have an anchor in the page of runs.
 std::string short_id(const std::string& run);
 std::string run_anchor(const std::string& run);
 

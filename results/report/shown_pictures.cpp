@@ -1,6 +1,7 @@
 #include "results/report/shown_pictures.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "results/report/ground_name.h"
@@ -16,7 +17,27 @@ bool has_own_claim(std::span<const Judgement> judgements, const std::string& fig
   });
 }
 
+// "(a) ROAM" or "a) ROAM", with the letter that comes after `before` panels.
+bool names_panel(std::string_view words, std::size_t before) {
+  if (words.starts_with('(')) words.remove_prefix(1);
+  return words.size() > 3 && words[0] == static_cast<char>('a' + before) && words.substr(1, 2) == ") ";
+}
+
 }  // namespace
+
+std::vector<NamedPanel> comparable_panels(const FigureLayout& layout) {
+  constexpr int kRounding = 2;  // pixels
+  std::vector<NamedPanel> named;
+  const std::vector<FigurePanel>& panels = layout.panels;
+  for (const std::string& words : layout.words) {
+    if (named.size() == panels.size() || !names_panel(words, named.size())) continue;
+    const FigurePanel& p = panels[named.size()];
+    if (std::abs(p.width - panels[0].width) > kRounding || std::abs(p.height - panels[0].height) > kRounding)
+      return {};
+    named.push_back({words, p.x, p.y, panels[0].width, panels[0].height});
+  }
+  return named.size() == panels.size() && named.size() > 1 ? named : std::vector<NamedPanel>();
+}
 
 std::vector<ShownPicture> claimed_pictures(const Store& store, const JudgedResults& results,
                                            const Paper& paper) {

@@ -8,6 +8,7 @@
 
 #include "results/claims/judge.h"
 #include "results/claims/layouts.h"
+#include "results/report/document.h"
 
 namespace terrabench {
 
@@ -26,5 +27,9 @@ std::vector<ShownPicture> claimed_pictures(const Store&, const JudgedResults&, c
 // the ground, instead of the path of its DEM.
 std::vector<ShownPicture> drawn_pictures(const Store&, std::string_view profile,
                                          std::span<const PageLayout::Drawn> cases, std::string_view label);
+
+// The panels of a figure by their names, "(a) …", if all have one and all are of one size, so that they can
+// be laid over each other; otherwise none.
+std::vector<NamedPanel> comparable_panels(const FigureLayout&);
 
 }  // namespace terrabench

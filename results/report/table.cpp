@@ -45,8 +45,9 @@ std::string heading(const Column& column) {
 }
 
 std::string html(const Table& table) {
-  std::string text = fmt::format("<table id=\"{}\">\n<caption><strong>{}.</strong> {}</caption>\n<thead><tr>",
-                                 escape_html(table.id), escape_html(table.title), escape_html(table.caption));
+  std::string text =
+      fmt::format("<table id=\"{}\">\n<caption><div><strong>{}.</strong> {}</div></caption>\n<thead><tr>",
+                  escape_html(table.id), escape_html(table.title), escape_html(table.caption));
   for (const Column& column : table.columns) {
     text += fmt::format("<th scope=\"col\"{}>{}</th>", column.numeric ? " class=\"number\"" : "",
                         escape_html(heading(column)));

@@ -50,7 +50,7 @@ TEST_F(FailedCases, RatiosToAReliefOfZeroAreNotDefined) {
   EXPECT_THAT(std::string(built.why_absent("dig_time").value().reason), HasSubstr("too flat"));
   EXPECT_THAT(call("$T check out --verbose").text, HasSubstr("not defined ("));
   ASSERT_EQ(call("$T report out").code, 0);
-  EXPECT_THAT(read_file(folder_ / "out/report/report.md"),
+  EXPECT_THAT(read_file(folder_ / "out/report/runs.md"),
               AllOf(HasSubstr("Without measurements"), HasSubstr("not defined")));
 }
 

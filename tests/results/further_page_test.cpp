@@ -94,8 +94,8 @@ TEST_F(FurtherPageTest, HasNoPathsInItsCaptions) {
   }
 }
 
-// Nor has the main page, where cases stand that no page shows.
-TEST_F(FurtherPageTest, LeavesCasesToTheMainPageByTheirLabels) {
+// Nor has the page of cases that nothing else shows.
+TEST_F(FurtherPageTest, LeavesOtherCasesToAPageByTheirLabels) {
   measure("/x/alps.tif");
   Record curve = fake_record(run_, "drill.size", "/x/alps.tif/printed");
   curve.terrain = "/x/alps.tif";
@@ -105,7 +105,7 @@ TEST_F(FurtherPageTest, LeavesCasesToTheMainPageByTheirLabels) {
                            checksum(read_file(folder_ / "figures/curve.webp"))});
   store_.append(curve);
   write();
-  const std::string text = written("report.md");
+  const std::string text = written("other.md");
   EXPECT_THAT(text, HasSubstr("| alps.tif/printed |"));
   EXPECT_THAT(text, HasSubstr("**drill.size alps.tif/printed.** Bits for alps.tif"));
 }
@@ -117,10 +117,9 @@ TEST_F(FurtherPageTest, IsListedOnTheMainPageWhichDoesNotRepeatIt) {
   store_.append(claimed);
   write();
   const std::string main_page = written("index.html"), id = ground_id("/x/alps.tif");
-  for (const PageForm& form : {kHtmlForm, kMarkdownForm}) {
-    EXPECT_THAT(main_page, HasSubstr(fmt::format("href=\"{}.{}\"", ground_page(id), form.extension)));
-  }
-  EXPECT_THAT(main_page, HasSubstr("<a href=\"#grounds\">Further grounds</a>")) << "in the navigation";
+  EXPECT_THAT(main_page, HasSubstr(fmt::format("href=\"{}.html\"", ground_page(id))));
+  EXPECT_THAT(written("report.md"), HasSubstr(fmt::format("({}.md)", ground_page(id))));
+  EXPECT_THAT(main_page, HasSubstr("<h2 id=\"grounds\">Further grounds</h2>"));
   EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"{}.html\"", ground_page(id))));
   EXPECT_THAT(main_page, Not(HasSubstr("Unclaimed cases")));
   EXPECT_THAT(main_page, Not(HasSubstr("cross.error-maps." + id)));

@@ -75,7 +75,8 @@ TEST_F(GroundPageTest, HoldsAllThatBelongsToItsGroundAndNothingOfAnother) {
             << ground << "." << form << " has no " << text << " in its place";
         at = std::min(page.size(), page.find(text, at));
       }
-      EXPECT_THAT(page, Not(HasSubstr(std::string("-") + other)));
+      for (const char* const part : {"size", "time", "plot", "maps", "view"})
+        EXPECT_THAT(page, Not(HasSubstr(fmt::format("p.{}-{}", part, other))));
       EXPECT_THAT(page, Not(HasSubstr("p.both")));
     }
   }
@@ -85,11 +86,11 @@ TEST_F(GroundPageTest, HoldsAllThatBelongsToItsGroundAndNothingOfAnother) {
 TEST_F(GroundPageTest, IsListedWhereItsTablesWouldStand) {
   for (const char* const ground : {"hill", "cave"}) measure(ground);
   write_report(store_, papers_);
-  const std::string page = written("index.html");
+  const std::string page = written("paper-p.html");
   EXPECT_THAT(page, HasSubstr("id=\"p.both\""));
   for (const char* const ground : {"hill", "cave"}) {
     EXPECT_THAT(page, HasSubstr(fmt::format("href=\"ground-{}.html\"", ground)));
-    EXPECT_THAT(page, HasSubstr(fmt::format("href=\"ground-{}.md\"", ground)));
+    EXPECT_THAT(written("paper-p.md"), HasSubstr(fmt::format("(ground-{}.md)", ground)));
     EXPECT_THAT(page, Not(HasSubstr(fmt::format("p.size-{}", ground))));
     EXPECT_THAT(page, Not(HasSubstr(fmt::format("p.plot-{}", ground))));
     EXPECT_THAT(written("ledger.html"), HasSubstr(fmt::format("href=\"ground-{}.html\"", ground)));
@@ -145,7 +146,7 @@ TEST_F(GroundPageTest, WarnsOfManyLostColumns) {
 
 std::string ground_of(const std::string& case_name) { return case_name.substr(0, case_name.find('/')); }
 
-// The page where cases of these grounds belong; empty: the main page.
+// The page where cases of these grounds belong; empty: the paper's page.
 std::string page_for(const Paper& paper, const std::set<std::string>& grounds) {
   if (grounds.size() != 1) return "";
   const std::string& ground = *grounds.begin();

@@ -83,7 +83,7 @@ TEST_F(LedgerTest, ARowSaysWhatWasPrintedAndMeasuredAndWhere) {
   const auto& exact = row(ledger, "hybrid.T1.512");
   EXPECT_EQ(exact[kPrinted].text, "6,291,456 B");
   EXPECT_THAT(exact[kMeasured].text, HasSubstr("6,291,456 B"));
-  EXPECT_EQ(exact[kFigure].link, "main#hybrid.table1");
+  EXPECT_EQ(exact[kFigure].link, "paper-hybrid.*#hybrid.table1");
   const auto& differs = row(ledger, "hybrid.T2.ten");
   EXPECT_THAT(differs[kWhy].text, HasSubstr("the work grows with n³, by 8. Matches: hybrid.T2.256"));
   // The figure was drawn, but the links know of no such file.
@@ -129,7 +129,7 @@ TEST_F(LedgerTest, ARunNamesTheLinesThatWereRead) {
   ASSERT_NE(record, nullptr);
   const Cell run = row(table(papers()), "hybrid.T1.512")[kRun];
   EXPECT_THAT(run.text, HasSubstr(std::to_string(store.line(*record))));
-  EXPECT_THAT(run.link, testing::StartsWith("main#run-"));
+  EXPECT_THAT(run.link, testing::StartsWith("runs.*#run-"));
   const std::string text = content();
   std::size_t at = 0;
   for (std::size_t line = 1; line < store.line(*record); ++line) at = text.find('\n', at) + 1;
@@ -159,10 +159,10 @@ TEST_F(LedgerTest, ARowLinksToTheTableOrPlotThatShowsItsNumbers) {
   for (const char* const nowhere : {"p.unshown", "p.unmeasured"}) EXPECT_EQ(shown(nowhere), "–");
   write_report(store, of);
   const auto page = [&](const char* name) { return read_file(folder_ / "report" / name); };
-  EXPECT_THAT(page("ledger.html"), HasSubstr("<a href=\"index.html#p.plot\">p.plot</a>"));
-  EXPECT_THAT(page("index.html"), HasSubstr("<figure id=\"p.plot\">"));
-  EXPECT_THAT(page("ledger.md"), HasSubstr("[p.plot](report.md#p.plot)"));
-  EXPECT_THAT(page("report.md"), HasSubstr("<a id=\"p.plot\"></a>"));
+  EXPECT_THAT(page("ledger.html"), HasSubstr("<a href=\"paper-p.html#p.plot\">p.plot</a>"));
+  EXPECT_THAT(page("paper-p.html"), HasSubstr("<figure id=\"p.plot\">"));
+  EXPECT_THAT(page("ledger.md"), HasSubstr("[p.plot](paper-p.md#p.plot)"));
+  EXPECT_THAT(page("paper-p.md"), HasSubstr("<a id=\"p.plot\"></a>"));
 }
 
 // Claims that no table or plot shows read these experiments. Each checks one detail by a few numbers of one
@@ -196,7 +196,7 @@ TEST(Ledger, EveryMeasuredClaimButThoseThatCheckOneDetailHasATableOrPlot) {
 TEST_F(LedgerTest, AllRowsAreShownWithoutTheScript) {
   write_report(folder_);
   const std::string page = read_file(folder_ / "report/ledger.html");
-  EXPECT_THAT(page, HasSubstr("data-table=\"ledger\" hidden>"));
+  EXPECT_THAT(page, HasSubstr("data-table=\"ledger\" data-search hidden>"));
   EXPECT_THAT(page, HasSubstr("<table id=\"ledger\">"));
   EXPECT_THAT(page, Not(HasSubstr("<tr hidden")));
   EXPECT_THAT(page, Not(HasSubstr("http")));

@@ -37,6 +37,20 @@ TEST(PlotTest, ShowsLabelsUnitsTicksAndEveryPoint) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(PlotTest, EveryPointHasItsValuesUnderThePointer) {
+  const std::string svg = plot_svg(growth());
+  for (const char* const hint :
+       {"this &lt;program&gt; · samples along each side, n: 64 · generation time: 0.02 s [0.018, "
+        "0.03]</title>",
+        "this &lt;program&gt; · samples along each side, n: 256 · generation time: 1.3 s [1.2, 1.9]</title>",
+        "paper · samples along each side, n: 512 · generation time: 2,019 s</title>"}) {
+    EXPECT_EQ(count(svg, hint), 1U) << hint;
+  }
+  EXPECT_EQ(count(svg, "<title>"), 7U) << "six points and the plot";
+  // The left end of the line is its first point, whatever the order of the measurements.
+  EXPECT_LT(svg.find("n: 64"), svg.find("n: 128 · generation time: 0.15 s"));
+}
+
 TEST(PlotTest, WhatOneClipCutsSharesAGroup) {
   Plot few = growth();
   few.series = {{"a", {{1, 1, 0.9, 1.1}, {1000, 1000, 900, 1100}}, false}};
@@ -111,6 +125,9 @@ TEST(PlotTest, StacksThePartsOfBars) {
     EXPECT_THAT(both, HasSubstr(label));
   }
   EXPECT_THAT(both, Not(HasSubstr("nan")));
+  EXPECT_THAT(both, HasSubstr("<title>brute force · choosing · time: 0.02 ms</title>"));
+  EXPECT_THAT(both, HasSubstr("<title>ROAM · drawing · time: 14 ms</title>"))
+      << "the part's length, not its end";
   EXPECT_EQ(plot_svg(plot), both);
   EXPECT_GT(screen_size(plot).height, screen_size({"", {}, {}, parts, {"one"}}).height);
   // Two bars and the legend's key, per part.

@@ -1,5 +1,6 @@
 #include "results/report/report.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <regex>
 
 #include "results/claims/ranking.h"
+#include "results/store/record_json.h"
 #include "terrain/error.h"
 #include "terrain/image.h"
 #include "tests/results/fake_results.h"
@@ -43,20 +45,20 @@ TEST_F(ReportTest, HoldsTablesPlotsFiguresAndProvenance) {
                            "figures/hybrid.table2-growth.svg", "figures/hybrid.table1-bytes.svg"}) {
     EXPECT_TRUE(files.contains(file)) << file;
   }
-  const std::string& page = files.at("index.html");
-  for (const char* text : {"393,216", "2,097,152", "reproduced (shape)", "not judged", "Figure 13",
-                           "0123456789abcdef0123456789abcdef01234567", "terrabench run --profile quick",
+  for (const char* text : {"393,216", "2,097,152", "reproduced (shape)", "Figure 13"})
+    EXPECT_THAT(files.at("paper-hybrid.html"), HasSubstr(text));
+  for (const char* text : {"0123456789abcdef0123456789abcdef01234567", "terrabench run --profile quick",
                            "A processor &lt;of &amp; for&gt; tests"}) {
-    EXPECT_THAT(page, HasSubstr(text));
+    EXPECT_THAT(files.at("runs.html"), HasSubstr(text));
   }
-  EXPECT_THAT(files.at("report.md"), HasSubstr("393,216"));
+  EXPECT_THAT(files.at("paper-hybrid.md"), HasSubstr("393,216"));
   EXPECT_THAT(files.at("tables/inputs.csv"), HasSubstr("00112233445566778899aabbccddeeff"));
   EXPECT_THAT(files.at("tables/hybrid.table1.csv"), HasSubstr("128³,2097152,2097152"));
 }
 
 // The targets of all links of a page, and what it shows.
 std::vector<std::string> targets_of(const std::string& page, bool is_html) {
-  const std::regex link(is_html ? "(?:href|src)=\"([^\"]*)\"" : "[^\\\\]\\]\\(([^)]*)\\)");
+  const std::regex link(is_html ? "(?:href|src|data|action)=\"([^\"]*)\"" : "[^\\\\]\\]\\(([^)]*)\\)");
   std::vector<std::string> targets;
   for (std::sregex_iterator at(page.begin(), page.end(), link), end; at != end; ++at)
     targets.push_back((*at)[1]);
@@ -126,9 +128,63 @@ TEST_F(ReportTest, ComesOutOfAPartialRun) {
   Record record = fake_record(run, "hybrid.table2", "n=64");
   add(record, "generation_time", "s", {0.02});
   store.append(record);
-  const std::string page = read_file(write_report(folder_).page);
-  EXPECT_THAT(page, HasSubstr("Table 2"));
-  EXPECT_THAT(page, HasSubstr("missing"));
+  EXPECT_THAT(read_file(write_report(folder_).page), HasSubstr("missing"));
+  EXPECT_THAT(read_file(folder_ / "report/paper-hybrid.html"), HasSubstr("Table 2"));
+}
+
+TEST_F(ReportTest, SaysAtTheTopThatTheMachineWasBusy) {
+  Store store(folder_);
+  for (const bool busy : {false, true}) {
+    Provenance run = fake_provenance();
+    if (busy) run.timing_warnings = {"other work used 2 of 2 processors"};
+    run.id = digest(run);
+    store.begin_run(run);
+    Record record = fake_record(run, "hybrid.table2", busy ? "n=64" : "n=128");
+    add(record, "generation_time", "s", {0.02});
+    store.append(record);
+  }
+  write_report(folder_);
+  for (const char* const name : {"index.html", "report.md"}) {
+    const std::string page = read_file(folder_ / "report" / name);
+    const std::size_t at = page.find("Times are uncertain in 1 of 2 runs");
+    EXPECT_LT(at, page.find("What holds of each paper")) << name;
+    EXPECT_THAT(page.substr(at), HasSubstr("other work used 2 of 2 processors"));
+  }
+  const std::string page = read_file(folder_ / "report/paper-hybrid.html");
+  EXPECT_THAT(page, HasSubstr(", times uncertain</a>"));
+  EXPECT_THAT(page, testing::ContainsRegex(">run [0-9a-f]+</a>"));
+}
+
+TEST_F(ReportTest, ATableNamesTheCommandAndTheRecordsBehindIt) {
+  write_fake_results(folder_, "paper");
+  write_report(folder_);
+  const Store store = Store::open(folder_);
+  const std::string page = read_file(folder_ / "report/paper-hybrid.html");
+  const std::size_t table = page.find("<table id=\"hybrid.table1\">"), end = page.find("<table", table + 1);
+  const std::string part = page.substr(table, end - table);
+  EXPECT_THAT(part, HasSubstr("<code>terrabench run hybrid.table1 --profile paper</code>"));
+  const std::size_t line = store.line(*store.find("hybrid.table1", "n=128", "paper"));
+  EXPECT_THAT(part,
+              HasSubstr(fmt::format("<a href=\"../measurements.jsonl\">measurements.jsonl, lines {}", line)));
+}
+
+TEST_F(ReportTest, EveryPageLeadsToEveryOther) {
+  write_fake_results(folder_, "paper");
+  write_report(folder_);
+  const auto files = files_of(folder_ / "report");
+  std::vector<std::string> names;
+  for (const auto& [name, text] : files) {
+    if (name.ends_with(".html")) names.push_back(name);
+  }
+  ASSERT_THAT(names, testing::IsSupersetOf({"paper-hybrid.html", "runs.html", "ledger.html", "index.html"}));
+  for (const std::string& from : names) {
+    for (const std::string& to : names) {
+      const std::string target = from == to ? "#top" : to;
+      EXPECT_THAT(files.at(from), HasSubstr(fmt::format("<a href=\"{}\"", target)));
+    }
+  }
+  EXPECT_THAT(files.at("runs.md"),
+              AllOf(HasSubstr("(report.md)"), HasSubstr("(paper-hybrid.md)"), HasSubstr("(runs.html)")));
 }
 
 TEST_F(ReportTest, AlteredResultsCarryAWarning) {
@@ -217,8 +273,9 @@ TEST_F(ReportTest, ALinkOutOfTheFolderIsNoPicture) {
   std::filesystem::rename(results / "figures/hybrid.F4.webp", outside / "secret.png");
   std::filesystem::create_symlink(outside / "secret.png", results / "figures/hybrid.F4.webp");
   EXPECT_THAT(write_report(results).faults, testing::ElementsAre(HasSubstr("hybrid.F4")));
-  EXPECT_THAT(read_file(results / "report/index.html"), Not(HasSubstr("src=\"../figures/hybrid.F4.webp")));
-  EXPECT_THAT(read_file(results / "report/index.html"), HasSubstr("src=\"../figures/hybrid.F3.webp"));
+  const std::string page = read_file(results / "report/paper-hybrid.html");
+  EXPECT_THAT(page, Not(HasSubstr("src=\"../figures/hybrid.F4.webp")));
+  EXPECT_THAT(page, HasSubstr("src=\"../figures/hybrid.F3.webp"));
   // The whole folder of pictures likewise; a link to the results folder itself is none out of it.
   std::filesystem::rename(results / "figures", outside / "figures");
   std::filesystem::create_directory_symlink(outside / "figures", results / "figures");
@@ -257,10 +314,13 @@ TEST(Reference, ReportIsSmall) {
   for (const auto& [file, text] : files_of(report)) bytes += text.size();
   EXPECT_LT(bytes, 15'000'000U);
   std::size_t files = 0;
-  for (const std::string& target : targets_of(read_file(report / "index.html"), true)) {
-    const std::string file = target.substr(0, target.find('#'));
-    EXPECT_TRUE(std::filesystem::exists(report / file)) << target;
-    ++files;
+  for (const auto& [name, text] : files_of(report)) {
+    if (!name.ends_with(".html")) continue;
+    for (const std::string& target : targets_of(text, true)) {
+      const std::string file = target.substr(0, target.find('#'));
+      EXPECT_TRUE(std::filesystem::exists(report / file)) << target;
+      ++files;
+    }
   }
   EXPECT_GE(files, 100U);
 }

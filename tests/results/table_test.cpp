@@ -81,6 +81,8 @@ TEST(TableTest, MarkdownKeepsRowsOnOneLine) {
 TEST(DocumentTest, PageNeedsNothingFromOutside) {
   const Document document = {Heading{1, "A <title>", "top"},
                              Heading{2, "Part", "part"},
+                             Heading{2, "Second", "second"},
+                             Heading{2, "Third", "third"},
                              Paragraph{"a & b", true},
                              Facts{{{"x", "<y>"}}},
                              TableBlock{awkward(), {{"CSV", "a.csv"}}},
@@ -95,6 +97,47 @@ TEST(DocumentTest, PageNeedsNothingFromOutside) {
   const std::string text = markdown(document);
   EXPECT_THAT(text, HasSubstr("<a id=\"p.p\"></a>![P](p.svg)"));
   EXPECT_THAT(text, HasSubstr("[CSV](a.csv)"));
+}
+
+TEST(DocumentTest, BarsSayTheirNumbersInWords) {
+  const Bars bars{"b",           "Bars",
+                  "c",           {"a", "b", "c", "d", "e", "f", "g"},
+                  "of pictures", {{{"<P>", "p.html"}, "p", {3, 0, 1, 0, 0, 0, 0}, "2 of 2"}}};
+  const std::string page = html(Document{bars}), text = markdown(Document{bars});
+  for (const char* const part : {"aria-label=\"3 a, 1 c\"", "id=\"p\"", "<a href=\"p.html\">&lt;P&gt;</a>",
+                                 "flex-grow:3", ">3</span>", "2 of 2"})
+    EXPECT_THAT(page, HasSubstr(part));
+  EXPECT_THAT(page, Not(HasSubstr(">0</span>")));
+  EXPECT_THAT(text, HasSubstr("[<a id=\"p\"></a>&lt;P&gt;](p.html) | 3 | 1 | 2 of 2 |"));
+  EXPECT_THAT(page, HasSubstr("class=\"part2\"></span>c</span>"));
+  EXPECT_THAT(page, Not(HasSubstr("class=\"part1\"></span>b</span>"))) << "no bar has such a part";
+}
+
+TEST(DocumentTest, ALongTableHasAFieldThatFiltersIt) {
+  Table table = awkward();
+  EXPECT_THAT(html(Document{TableBlock{table, {}}}), Not(HasSubstr("class=\"filter")));
+  EXPECT_THAT(html(Document{TableBlock{table, {}, true}}), HasSubstr("data-search hidden>"));
+  table.rows.resize(40, table.rows[0]);
+  const std::string page = html(Document{TableBlock{table, {}}});
+  EXPECT_THAT(page, HasSubstr("class=\"filter"));
+  EXPECT_THAT(page, Not(HasSubstr("data-search hidden>")));
+}
+
+TEST(DocumentTest, ALinkWithoutTargetIsACommand) {
+  const Document document{Paragraph{"p", false, {{"run <x>"}, {"CSV", "a.csv"}}},
+                          Doors{{{"What & why", "do <it>"}}}, Search{"Find", "ledger.html"},
+                          Gallery{{{"P", "c", "p.webp", {}, "", "p.html"}}, true}};
+  const std::string page = html(document), text = markdown(document);
+  for (const char* const part :
+       {"<code>run &lt;x&gt;</code> · <a href=\"a.csv\">CSV</a>",
+        "<li>What &amp; why<code>do &lt;it&gt;</code>", "action=\"ledger.html\" hidden>",
+        "<div class=\"strip\">", "<a href=\"p.html\"><img src=\"p.webp\""}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  for (const char* const part :
+       {"`run <x>` · [CSV](a.csv)", "- What &amp; why: `do <it>`", "[![P](p.webp)](p.html)"})
+    EXPECT_THAT(text, HasSubstr(part));
+  EXPECT_THAT(text, Not(HasSubstr("Find")));
 }
 
 TEST(TableTest, LatexIsBooktabsAndEscaped) {
