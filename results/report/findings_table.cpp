@@ -17,6 +17,8 @@ std::string joined(const std::vector<std::string>& methods) {
   return fmt::format("{}", fmt::join(methods, " ≈ "));
 }
 
+constexpr std::size_t kMostNamed = 3;  // in a cell; the ground's page has all
+
 Cell cell_of(const Ranking& ranking) {
   const std::vector<std::string> best = ranking.best();
   Cell cell{joined(best)};
@@ -24,6 +26,7 @@ Cell cell_of(const Ranking& ranking) {
     cell.text = "not decided";
     cell.style = "undecided";
   } else if (best.size() > 1) {
+    if (best.size() > kMostNamed) cell.text = fmt::format("{} methods tied", best.size());
     cell.style = "tied";
   } else if (ranking.places.size() == 1) {
     cell.text += " (alone)";
