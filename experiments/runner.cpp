@@ -100,6 +100,7 @@ Record begin_record(const RunPlan& plan, const PlannedCase& planned, const std::
   record.run = run;
   record.seed = plan.options.seed;
   record.parameters = values(planned.at.parameters);
+  record.terrain_checksum = plan.terrain_checksum;
   return record;
 }
 
@@ -131,7 +132,7 @@ void become(CaseOutcome outcome, std::string_view reason, const PlannedCase& pla
 void check_interrupted() {
   if (!Progress::interrupted()) return;
   throw Error(ExitCode::kInterrupted, "interrupted", "run",
-              "what was measured is kept: the same command goes on (run: with --resume)");
+              "what was measured is kept: the same command goes on; of run, with --resume");
 }
 
 void measure(const RunPlan& plan, const PlannedCase& planned, Progress::Output output, Record& record) {
@@ -196,7 +197,7 @@ class Session {
       }
     }
     if (plan_.seconds && left_.expected() > 0)
-      fmt::print(stderr, "this takes about {} on this machine\n", duration(left_.expected()));
+      fmt::print(stderr, "this takes about {} on two cores\n", duration(left_.expected()));
     const auto output = progress_output();
     measure_in_processes(untimed, plan_.jobs, Progress::Output::kSilent);
     for (const std::size_t i : untimed) left_.done(weight(i));
@@ -237,7 +238,7 @@ class Session {
                record.outcome == CaseOutcome::kMeasured
                    ? ""
                    : fmt::format(", {}: {}", name(record.outcome), record.reason),
-               beside_others ? "" : left_.text(weight(i)));
+               plan_.seconds && !beside_others ? left_.text(weight(i)) : "");
   }
 
   // As a failure if the record cannot be written as it is.
@@ -282,7 +283,7 @@ class Session {
   }
 
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
-  double weight(std::size_t i) const { return plan_.seconds ? plan_.seconds(cases_[i]) : 1; }
+  double weight(std::size_t i) const { return plan_.seconds ? plan_.seconds(cases_[i]) : 0; }
   std::string title(std::size_t i) const {
     return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
   }

@@ -26,12 +26,13 @@ struct RunPlan {
   std::filesystem::path folder = "out";
   bool resume = false;  // skip cases that the folder already holds, unless they failed
   Part part = Part::kAll;
-  int shard = 1, shards = 1;         // measure only every shards-th case of the part, from the shard-th
-  int threads = 0;                   // in use, for the provenance; 0: all
-  int jobs = 1;                      // untimed cases beside each other, with threads ÷ jobs threads each
-  std::vector<std::string> command;  // argv, for the provenance
-  // About how many seconds the case takes, to say how long the run will. None: each as long as any other,
-  // and nothing is said before some were measured.
+  int shard = 1, shards = 1;          // measure only every shards-th case of the part, from the shard-th
+  int threads = 0;                    // in use, for the provenance; 0: all
+  int jobs = 1;                       // untimed cases beside each other, with threads ÷ jobs threads each
+  std::vector<std::string> command;   // argv, for the provenance
+  std::string terrain_checksum = {};  // of the terrains; to resume: cases of another content are not kept
+  // About how many seconds the case takes, to say how long the run will, and what is left. None: neither is
+  // said.
   std::function<double(const PlannedCase&)> seconds = {};
 };
 

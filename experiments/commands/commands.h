@@ -124,6 +124,8 @@ struct ReportArguments {
   std::filesystem::path reference;  // results folder to compare further grounds with; empty: `folder`
   std::string profile;              // empty: the newest record's
 };
+// Prints that results cannot be trusted, if they have faults.
+void warn_of(const std::vector<std::string>& faults);
 ExitCode report_command(const ReportArguments&);
 
 // Prints BibTeX of the papers and of this program.

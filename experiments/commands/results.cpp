@@ -31,8 +31,6 @@ ExitCode check_command(const CheckArguments& arguments) {
   return results.passed() ? ExitCode::kGood : ExitCode::kClaimFallsShort;
 }
 
-namespace {
-
 void warn_of(const std::vector<std::string>& faults) {
   if (faults.empty()) return;
   fmt::print(
@@ -41,6 +39,8 @@ void warn_of(const std::vector<std::string>& faults) {
       "an unknown run; the first: {}\n  'terrabench check' lists all; measure these cases again\n",
       faults.size(), faults.front());
 }
+
+namespace {
 
 std::filesystem::path report(const ReportArguments& arguments) {
   const WrittenReport report = write_report(arguments.folder, arguments.reference, arguments.profile);

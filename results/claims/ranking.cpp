@@ -51,7 +51,8 @@ std::vector<Candidate> candidates(const RankingLayout& layout, const Store& stor
     const Metric* const metric = record == nullptr ? nullptr : record->find(for_row(layout.metric, entry));
     if (metric == nullptr) {
       // Such as a type that does not reach the error of its case, or that cannot be edited.
-      if (record != nullptr) ranking.left_out.push_back(entry.label);
+      if (record != nullptr && record->outcome == CaseOutcome::kMeasured)
+        ranking.left_out.push_back(entry.label);
       continue;
     }
     const std::string fault = other_unit(layout, entry, *metric, all);

@@ -130,7 +130,8 @@ std::string advice_text(const Table& table) {
   Table answers = table;
   answers.columns.pop_back();
   for (std::vector<Cell>& row : answers.rows) row.pop_back();
-  std::string text = plain_text(answers, kWidest) + "\nWhy:\n";
+  std::string text =
+      (table.title.empty() ? "" : table.title + "\n") + plain_text(answers, kWidest) + "\nWhy:\n";
   for (const std::vector<Cell>& row : table.rows) {
     text += fmt::format("  {}: {}\n", row.front().text, row.back().text);
   }

@@ -75,8 +75,7 @@ std::string Ranking::reason() const {
     return value < 1e6 ? format_number(value) + " per second"
                        : format_number(value / 1e6) + " million per second";
   };
-  if (places.size() == 1)
-    return fmt::format("{}; no other method comes within that error", value_of(places[0]));
+  if (places.size() == 1) return fmt::format("{}; no other method has a value", value_of(places[0]));
   if (tied == 1)
     return fmt::format("{} against {} ({})", value_of(places[0]), value_of(places[1]), places[1].label);
   std::vector<std::string> all;

@@ -88,14 +88,17 @@ class Report {
     document_.push_back(next_commands());
     add_summary();
     add(failed_checks(results_));
-    if (std::ranges::count(results_.absences, "failed", &Absence::what) > 0) {
-      document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
-                                    true,
-                                    {{"Which, and why", "runs.*#absent"}}});
-    }
+    warn_of_failures();
     add_findings();
     add_discrepancies();
     add_further_grounds();
+  }
+
+  void warn_of_failures() {
+    if (std::ranges::count(results_.absences, "failed", &Absence::what) == 0) return;
+    document_.push_back(Paragraph{"Some cases failed: what they should have measured is missing.",
+                                  true,
+                                  {{"Which, and why", "runs.*#absent"}}});
   }
 
   // The main page shows the part before the heading.
@@ -140,7 +143,9 @@ class Report {
         "Terrain methods, measured on this ground. Each answer below is computed from the measurements; the "
         "page of the ground has all of them, as tables, curves and pictures."});
     add(fault_warning(store_, results_));
+    for (const std::string& ignored : results_.ignored) document_.push_back(Paragraph{ignored + ".", true});
     add(busy_warning(store_, results_, false));
+    warn_of_failures();
     add_further_grounds();
   }
 

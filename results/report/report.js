@@ -5,7 +5,7 @@ for (const element of document.querySelectorAll('.scripted')) element.hidden = f
 const units = { ns: 1e-9, µs: 1e-6, ms: 1e-3, kB: 1e3, MB: 1e6, GB: 1e9 };
 // The number that a text begins with, in the unit that follows it; NaN: none.
 const numberIn = (text) => {
-  const found = text.match(/^[≈<>≤≥~ ]*([-−]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?)\s*([nµm]s\b|[kMG]B\b)?/);
+  const found = text.match(/^[≈<>≤≥~ ]*([-−]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?)\s*([nµm]s|[kMG]B)?(?![-\d\/.]| (?:m|b)illion)/);
   return found ? Number(found[1].replaceAll(',', '').replace('−', '-')) * (units[found[2]] ?? 1) : NaN;
 };
 const words = new Intl.Collator(undefined, { numeric: true });

@@ -9,7 +9,9 @@
 
 #include "results/plot/plot.h"
 #include "results/report/report_tables.h"
+#include "results/store/provenance.h"
 #include "terrain/files.h"
+#include "terrain/source.h"
 
 namespace terrabench {
 namespace {
@@ -38,15 +40,20 @@ bool is_plain(std::string_view name) {
   });
 }
 
-// What measures these records again; empty if a name is not plain.
-std::string command_for(const std::vector<const Record*>& records) {
-  std::string command = "terrabench run";
+// What measures these records again. Empty if a name is not plain, or if other options are needed: a file of
+// the user's, parameters, a seed.
+std::string command_for(const std::vector<const Record*>& records, const Store& store) {
+  std::string command = "terrabench run", profile = records.front()->profile;
   std::set<std::string_view> seen;
   for (const Record* const record : records) {
     if (!is_plain(record->experiment) || !is_plain(record->profile)) return "";
+    if (!record->overrides.empty() || record->seed != 1 || !terrain_file(record->terrain).empty()) return "";
     if (seen.insert(record->experiment).second) command += " " + record->experiment;
+    // Kept with the measurements of another profile.
+    const Provenance* const run = store.run(record->run);
+    if (run != nullptr && run->command.find("--profile scale") != run->command.npos) profile = "scale";
   }
-  return command + " --profile " + records.front()->profile;
+  return command + " --profile " + profile;
 }
 
 void append(Document& document, Document blocks) { std::ranges::move(blocks, std::back_inserter(document)); }
@@ -73,7 +80,8 @@ std::vector<Link> ReportParts::sources(const std::vector<std::string>& runs,
   links.push_back({fmt::format("measurements.jsonl, line{} {}", lines.size() == 1 ? "" : "s",
                                ranges({lines.begin(), lines.end()})),
                    "../measurements.jsonl"});
-  if (std::string command = command_for(records); !command.empty()) links.push_back({std::move(command)});
+  if (std::string command = command_for(records, store_); !command.empty())
+    links.push_back({std::move(command)});
   return links;
 }
 

@@ -46,7 +46,7 @@ TEST_F(AdviceTest, HasTheBestTheNextAndTheReason) {
   EXPECT_THAT(row(ranking({{"ROAM", 143}, {"MRBSP", 143}, {"clipmap", 900}}, 2)),
               ElementsAre("Fewest triangles", "MRBSP ≈ ROAM", "clipmap", "tied", "–", "ROAM 143, MRBSP 143"));
   EXPECT_THAT(row(ranking({{"ROAM", 143}})), ElementsAre("Fewest triangles", "ROAM", "–", "alone", "–",
-                                                         "143; no other method comes within that error"));
+                                                         "143; no other method has a value"));
   EXPECT_THAT(row(ranking({})), ElementsAre("Fewest triangles", "not decided", "–", "–", "–",
                                             "no method comes within that error"));
 }
