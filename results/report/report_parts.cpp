@@ -11,7 +11,6 @@
 #include "results/report/report_tables.h"
 #include "results/store/provenance.h"
 #include "terrain/files.h"
-#include "terrain/source.h"
 
 namespace terrabench {
 namespace {
@@ -47,7 +46,8 @@ std::string command_for(const std::vector<const Record*>& records, const Store& 
   std::set<std::string_view> seen;
   for (const Record* const record : records) {
     if (!is_plain(record->experiment) || !is_plain(record->profile)) return "";
-    if (!record->overrides.empty() || record->seed != 1 || !terrain_file(record->terrain).empty()) return "";
+    const bool is_file = record->terrain.find_first_of("./:") != std::string::npos;  // not one of ours
+    if (!record->overrides.empty() || record->seed != 1 || is_file) return "";
     if (seen.insert(record->experiment).second) command += " " + record->experiment;
     // Kept with the measurements of another profile.
     const Provenance* const run = store.run(record->run);

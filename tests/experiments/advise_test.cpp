@@ -39,9 +39,9 @@ TEST_F(Advise, PrintsATableWithReasonsAndWritesAPage) {
 }
 
 TEST_F(Advise, MeasuresAnewWhatHasChanged) {
-  EXPECT_EQ(call("$T advise my.tif --for archiving --side 9 --out a").code, 0);
+  EXPECT_EQ(call("$T advise my.tif --for archiving --side 17 --out a").code, 0);
   call("$T represent jacksboro --as heightmap --crop 120 100 65 49 --save my.tif");
-  const Outcome changed = call("$T advise my.tif --for archiving --side 9 --out a");
+  const Outcome changed = call("$T advise my.tif --for archiving --side 17 --out a");
   EXPECT_EQ(changed.code, 0) << changed.text;
   EXPECT_THAT(changed.text, AllOf(HasSubstr("[1/"), Not(HasSubstr("were already in the results folder"))));
 }
