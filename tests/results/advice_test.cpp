@@ -45,8 +45,8 @@ TEST_F(AdviceTest, HasTheBestTheNextAndTheReason) {
               ElementsAre("Fewest triangles", "ROAM", "MRBSP", "2 ×", "–", "143 against 286 (MRBSP)"));
   EXPECT_THAT(row(ranking({{"ROAM", 143}, {"MRBSP", 143}, {"clipmap", 900}}, 2)),
               ElementsAre("Fewest triangles", "MRBSP ≈ ROAM", "clipmap", "tied", "–", "ROAM 143, MRBSP 143"));
-  EXPECT_THAT(row(ranking({{"ROAM", 143}})), ElementsAre("Fewest triangles", "ROAM", "–", "alone", "–",
-                                                         "143; no other method has a value"));
+  EXPECT_THAT(row(ranking({{"ROAM", 143}})),
+              ElementsAre("Fewest triangles", "ROAM", "–", "alone", "–", "143; no other method has a value"));
   EXPECT_THAT(row(ranking({})), ElementsAre("Fewest triangles", "not decided", "–", "–", "–",
                                             "no method comes within that error"));
 }
