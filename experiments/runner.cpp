@@ -132,7 +132,7 @@ void become(CaseOutcome outcome, std::string_view reason, const PlannedCase& pla
 void check_interrupted() {
   if (!Progress::interrupted()) return;
   throw Error(ExitCode::kInterrupted, "interrupted", "run",
-              "what was measured is kept: the same command goes on; of run, with --resume");
+              "measurements are kept; to continue, repeat the command (`run`: add --resume)");
 }
 
 void measure(const RunPlan& plan, const PlannedCase& planned, Progress::Output output, Record& record) {

@@ -31,8 +31,7 @@ struct RunPlan {
   int jobs = 1;                       // untimed cases beside each other, with threads ÷ jobs threads each
   std::vector<std::string> command;   // argv, for the provenance
   std::string terrain_checksum = {};  // of the terrains; to resume: cases of another content are not kept
-  // About how many seconds the case takes, to say how long the run will, and what is left. None: neither is
-  // said.
+  // Estimated seconds per case, for printing the total and the remaining time. Empty: neither is printed.
   std::function<double(const PlannedCase&)> seconds = {};
 };
 

@@ -19,7 +19,8 @@ class TimeLeft {
     done_ += weight;
   }
   double expected() const { return left_; }
-  // ", about 2 min left", once a case of that weight is done too; nothing before it can be known.
+  // Such as ", about 2 min left", counting a case of that weight that just ended; empty in the first seconds
+  // and when no case is left.
   std::string text(double weight) const {
     constexpr double kSoonest = 5;  // seconds
     const double seconds = watch_.seconds(), left = left_ - weight;

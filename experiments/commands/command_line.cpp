@@ -183,8 +183,8 @@ void add_results(CLI::App& app, Arguments& a) {
   report
       ->add_option(
           "--reference", a.report.reference,
-          "Results folder with whose grounds yours is compared: the report says whether the same method is "
-          "best there (default: the reference run, which is inside the program)")
+          "Compare your ground with the grounds of this results folder (default: the reference run, which is "
+          "inside the program)")
       ->excludes(latex);
   app.add_subcommand("cite", "Print BibTeX of the papers and of this program");
   auto* compare = app.add_subcommand(

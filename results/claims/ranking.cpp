@@ -115,7 +115,7 @@ std::optional<Ranking> rank(const RankingLayout& layout, const Store& store, con
   ranking.layout = &layout;
   std::vector<Candidate> all = candidates(layout, store, profile, ranking);
   if (all.size() + ranking.left_out.size() < 2) return std::nullopt;
-  // That no entry has what is needed is an answer; that none has the metric says that nobody asked.
+  // If every entry fails `needs`, the ranking says so; if `needs` was not measured either, there is none.
   if (all.empty() && !need_measured(layout, store, profile)) return std::nullopt;
   if (all.empty()) return ranking;
   std::ranges::stable_sort(all, [&](const Candidate& a, const Candidate& b) {

@@ -12,7 +12,7 @@
 
 namespace terrabench {
 
-// Which methods are best at a question on a ground, by name; several are tied, none: it is not decided.
+// Which methods are best at a question on a ground, by name; several if they are tied, none if it is not decided.
 struct Answer {
   const RankingLayout* layout;
   std::vector<std::string> best;
@@ -22,7 +22,7 @@ std::vector<Answer> answers(std::span<const Ranking>);
 // Of the reference run, results/reference/report/findings.json, which is compiled in.
 std::span<const Answer> reference_answers();
 
-// Whether it has a question that matters for the purpose; empty: for any.
+// Whether the ranking's question matters for the purpose (empty: for any).
 bool matters(const RankingLayout&, std::string_view purpose);
 // The purposes that the claims files name, and the experiments that answer their questions on a ground that
 // no claims file names.

@@ -96,7 +96,7 @@ std::string tie_rule() {
       "if the whole interval lies within the margin on both sides of 1; else, and for times taken fewer than "
       "{} times, it is undecided. The margin is {} for times and rates, since two thirds of them change by "
       "less between two runs on one machine, {} for the sizes and errors of files, since two searches with "
-      "other seeds differ by as much, and {} for all else, since a smaller lead is no reason to choose a "
+      "different seeds differ by as much, and {} for all else, since a smaller lead is no reason to choose a "
       "method. Factors are rounded to three digits first.",
       kFewestSamples, kTimingMargin, kSearchMargin, kExactMargin);
 }

@@ -52,8 +52,8 @@ double printed(double value, bool timed);
 // Two quantities that differ by less count as equal. Times and rates: of the ranked medians, two thirds
 // differed by less between two runs of the whole paper profile on one machine, which the interval of one run
 // does not cover. All else, such as bytes, triangles and errors, is exact, but a smaller lead is no reason to
-// choose a method: stacks take 0.2 % fewer bytes than the implicit surface that is built on them. The best of
-// the files that a search made: searches with two seeds differ by as much.
+// choose a method: stacks take 0.2 % fewer bytes than the implicit surface that is built on them. The best
+// file of a search: two searches with different seeds differ by as much.
 inline constexpr double kTimingMargin = 1.25, kExactMargin = 1.01, kSearchMargin = 1.1;
 inline double margin_of(bool timed) { return timed ? kTimingMargin : kExactMargin; }
 

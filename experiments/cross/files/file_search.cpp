@@ -206,7 +206,7 @@ class Variation {
     return {nearest, miss(nearest) - 0.02};
   }
 
-  // By as much error, for the bytes that are missed, as lies between two neighbours around the aim.
+  // Turns the miss in bytes into a change of error, by the slope between the two files around the aim.
   static Step towards_bytes(const std::vector<const Made*>& best, const FileAim& aim) {
     const auto miss = [&](const Made* made) {
       return std::log(aim.most / static_cast<double>(made->file.bytes));

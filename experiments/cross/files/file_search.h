@@ -2,10 +2,10 @@
 //
 // One search with a number of builds, the same for all types. The settings are what RepresentationType::
 // file_knobs says, the resolution, and the error that encode() may add. A quarter of the builds spreads over
-// all settings evenly (Roberts 2018). For each error that is an aim two follow at the ground's own resolution
-// and the type's own settings, which give the error to encode() or to its knobs. The others take the
-// aims by turns: the nearest of the best files is made again, finer or coarser by the factor by which it
-// misses, some with all settings varied. Every file is written, read back and compared.
+// all settings evenly (Roberts 2018). Then two builds for each error that is an aim have the ground's own
+// resolution and the type's default settings, and pass the error to encode() or to the type's knobs. The rest
+// take the aims by turns: each builds the best file nearest to its aim again, finer or coarser by the factor
+// by which it misses, some with all settings varied. Every file is written, read back and compared.
 #pragma once
 
 #include <memory>

@@ -68,7 +68,7 @@ Map map_of(const Scene& scene, const RepresentationType& type, const Heightfield
            const GroundLines& compared, double most_bytes, int builds, Progress& progress) {
   Map map;
   map.type = &type;
-  // Within the bytes; and within about the error that such files have, where the type starts by itself.
+  // The limit of bytes, and about the error of such files, from which the search starts.
   const double error = scene.source.heights ? 0.03 * relief_of(scene) : 0.03;
   const FileAim bytes{FileAim::kBytes, &BuiltFile::rmse, most_bytes},
       errors{FileAim::kError, scene.source.heights ? &BuiltFile::largest : &BuiltFile::volume_error, error};

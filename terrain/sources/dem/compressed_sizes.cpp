@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -197,6 +198,12 @@ Coded jpeg2000_size(const Heightfield& field, double quality) {
   options.SetNameValue("CODEC", "J2K");
   options.SetNameValue("QUALITY", fmt::format("{:.6f}", quality).c_str());
   options.SetNameValue("REVERSIBLE", quality == 100 ? "YES" : "NO");
+  // OpenJPEG's own default. GDAL's stops halving at 128 samples: at 3 kB of 327 × 468 heights, that has nine
+  // times the RMSE.
+  constexpr unsigned kResolutions = 6;
+  const auto side = static_cast<unsigned>(std::min(field.width, field.depth));
+  options.SetNameValue("RESOLUTIONS",
+                       std::to_string(std::min<unsigned>(kResolutions, std::bit_width(side))).c_str());
   return copied_size(field, RasterCodec::kJpeg2000, Steps(field, natural_step(field)), "JP2OpenJPEG",
                      options);
 }
