@@ -91,6 +91,7 @@ struct Bars {
 
 using Block = std::variant<Heading, Paragraph, Facts, Doors, Search, TableBlock, Gallery, Bars>;
 using Document = std::vector<Block>;
+void append(Document& to, Document blocks);
 
 // `navigation`: to the other pages. The targets of links are taken as they are.
 using Navigation = std::vector<std::pair<std::string, std::vector<Link>>>;  // by the name of a group, or ""

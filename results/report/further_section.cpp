@@ -10,8 +10,6 @@
 namespace terrabench {
 namespace {
 
-void append(Document& document, Document blocks) { std::ranges::move(blocks, std::back_inserter(document)); }
-
 std::vector<Answer> answers_elsewhere(const Store* reference) {
   if (reference == nullptr) return {reference_answers().begin(), reference_answers().end()};
   return answers(rank(ranking_layouts(), *reference, reference->profile()));

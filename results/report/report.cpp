@@ -264,7 +264,6 @@ class Report {
     return {Paragraph{counts, false, {{"Each statement with its verdict", "ledger.*#" + paper.id}}}};
   }
 
-  static void append(Document& to, Document blocks) { std::ranges::move(blocks, std::back_inserter(to)); }
   // Nothing if there are no blocks.
   static void append_part(Document& to, Heading heading, Document blocks) {
     if (blocks.empty()) return;

@@ -56,8 +56,6 @@ std::string command_for(const std::vector<const Record*>& records, const Store& 
   return command + " --profile " + profile;
 }
 
-void append(Document& document, Document blocks) { std::ranges::move(blocks, std::back_inserter(document)); }
-
 }  // namespace
 
 std::vector<Link> ReportParts::links_to_runs(const std::vector<std::string>& runs) const {

@@ -53,6 +53,19 @@ TEST(CompressedSizes, ShrinkAsTheErrorGrowsAndKeepWithinIt) {
   }
 }
 
+// Smooth ground has almost nothing but its coarsest resolutions.
+TEST(CompressedSizes, Jpeg2000HasResolutionsForSmoothGround) {
+  const Heightfield field = test::ground_of(
+      400, 300,
+      [](int i, int j) {
+        return 300 + 90 * std::sin(0.07F * static_cast<float>(i)) * std::cos(0.05F * static_cast<float>(j));
+      },
+      30, 30);
+  const CompressedSize size = compressed_size_at(field, RasterCodec::kJpeg2000, 1);
+  EXPECT_LE(size.rmse, 1);
+  EXPECT_LT(size.bytes, 1500U);  // 3,900 with the two resolutions that GDAL would choose
+}
+
 TEST(CompressedSizes, LercKeepsItsPromise) {
   const Heightfield field = waves(64, 64, false);
   EXPECT_LE(compressed_size(field, RasterCodec::kLerc, 2).rmse, 2);
