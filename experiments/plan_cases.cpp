@@ -72,32 +72,55 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
   }
 }
 
-// Those that the patterns name and the profile measures.
-std::vector<const Experiment*> chosen_experiments(const RunPlan& plan) {
-  demand_experiments(plan.patterns);
+// The words of a plan: globs of experiments, and globs of their cases, which are the words that match no
+// experiment. Throws usage_error if no word matches one.
+struct Choice {
+  explicit Choice(const std::vector<std::string>& words) {
+    for (const std::string& word : words) (is_experiment(word) ? ids : case_names).push_back(word);
+    if (ids.empty()) demand_experiments(words);
+  }
+
+  std::vector<std::string> ids, case_names;
+
+ private:
+  static bool is_experiment(const std::string& word) {
+    return std::ranges::any_of(experiments(), [&](const Experiment& e) { return matches_glob(word, e.id); });
+  }
+};
+
+// Those that the globs name and the profile measures.
+std::vector<const Experiment*> chosen_experiments(const std::vector<std::string>& ids, Profile profile) {
   std::vector<const Experiment*> chosen;
-  const bool scale = plan.options.profile == Profile::kScale;
+  const bool scale = profile == Profile::kScale;
   for (const Experiment& experiment : experiments()) {
-    if (experiment.profile_scale == scale && matches_any(plan.patterns, experiment.id))
-      chosen.push_back(&experiment);
+    if (experiment.profile_scale == scale && matches_any(ids, experiment.id)) chosen.push_back(&experiment);
   }
   if (chosen.empty()) {
-    throw usage_error(fmt::format("not measured in this profile: {}", fmt::join(plan.patterns, " ")),
-                      "--profile",
+    throw usage_error(fmt::format("not measured in this profile: {}", fmt::join(ids, " ")), "--profile",
                       scale ? "choose quick or paper" : "growth with size is measured with --profile scale");
   }
   return chosen;
+}
+
+void keep_named(const std::vector<std::string>& globs, std::vector<PlannedCase>& cases) {
+  if (globs.empty()) return;
+  std::vector<std::string_view> names;
+  for (const PlannedCase& planned : cases) names.push_back(planned.at.name);
+  for (const Experiment& experiment : experiments()) names.push_back(experiment.id);  // for suggestions
+  demand_matches(globs, names, "experiment or case", "terrabench run --dry-run");
+  std::erase_if(cases, [&](const PlannedCase& planned) { return !matches_any(globs, planned.at.name); });
 }
 
 }  // namespace
 
 std::vector<PlannedCase> plan_cases(const RunPlan& plan) {
   check_terrains(plan.options.terrains);
-  const std::vector<const Experiment*> chosen = chosen_experiments(plan);
+  const Choice choice(plan.patterns);
   std::vector<PlannedCase> cases;
-  for (const Experiment* const experiment : chosen) {
+  for (const Experiment* const experiment : chosen_experiments(choice.ids, plan.options.profile)) {
     for (Case& at : experiment->cases(plan.options)) cases.push_back({experiment, std::move(at)});
   }
+  keep_named(choice.case_names, cases);
   std::vector<ParameterSpec> specs;
   for (const PlannedCase& planned : cases) {
     specs.insert(specs.end(), planned.experiment->parameters.begin(), planned.experiment->parameters.end());

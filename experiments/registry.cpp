@@ -172,7 +172,7 @@ void demand_experiments(std::span<const std::string> globs) {
                         fmt::format("they are measured by: terrabench run {}", fmt::join(found, " ")));
     }
   }
-  demand_matches(globs, ids, "experiment");
+  demand_matches(globs, ids, "experiment", "terrabench list experiments");
 }
 
 }  // namespace terrabench

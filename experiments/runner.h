@@ -20,7 +20,9 @@ struct PlannedCase {
 enum class Part { kAll, kTimed, kUntimed };  // which cases: see Experiment::timed()
 
 struct RunPlan {
-  std::vector<std::string> patterns;  // experiment ids or globs (* and ?); empty: all
+  // Experiment ids or globs (* and ?), then, if only some of their cases are wanted, those cases' names or
+  // globs. Empty: all.
+  std::vector<std::string> patterns;
   RunOptions options;
   std::vector<std::string> assignments;  // name=value,…, for every case that has such a parameter
   std::filesystem::path folder = "out";
@@ -39,7 +41,7 @@ struct RunPlan {
 inline constexpr ExitCode kCasesFailed{5};
 
 // The cases a plan names, in the registry's order. Throws usage_error when a pattern matches nothing (with
-// the nearest id), the profile measures none of the experiments, or an assignment fits no parameter of any.
+// the nearest name), the profile measures none of the experiments, or an assignment fits no parameter of any.
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or

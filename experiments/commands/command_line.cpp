@@ -21,7 +21,6 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/method_sets.h"
-#include "experiments/runner.h"
 #include "results/report/citation.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
@@ -44,7 +43,9 @@ constexpr const char* kFooter =
 constexpr std::pair<const char*, const char*> kExamples[] = {
     {"list", "  terrabench list terrains\n  terrabench list mrbsp"},
     {"advise", "  terrabench advise mountain.tif --for flying --out mine"},
-    {"run", "  terrabench run mrbsp.walk --out out\n  terrabench run 'hybrid.*' --profile paper --out out"},
+    {"run",
+     "  terrabench run mrbsp.walk real-257/fitted\n"
+     "  terrabench run 'hybrid.*' --profile paper --out out"},
     {"check", "  terrabench check out\n  terrabench check results/reference --claims 'mrbsp.T2.*' --verbose"},
     {"report", "  terrabench report out\n  terrabench report results/reference --latex bundle"},
     {"compare", "  terrabench compare before after\n  terrabench compare figures-by-osmesa figures-by-gpu"},
@@ -63,23 +64,10 @@ void on_signal(int) {
   Progress::interrupt();
 }
 
-// "2/8": every 8th case, from the second.
-void parse_shard(const std::string& text, RunPlan& plan) {
-  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
-  const auto shard = parse_number<int>(std::string_view(text).substr(0, slash)),
-             shards = parse_number<int>(std::string_view(text).substr(slash + 1));
-  if (!shard || !shards || *shard < 1 || *shard > *shards) {
-    throw usage_error(fmt::format("invalid shard '{}': expected i/n, such as 2/8", text), "--shard",
-                      "i counts from 1 to n");
-  }
-  plan.shard = *shard;
-  plan.shards = *shards;
-}
-
 // What the options set. Must outlive the parser.
 struct Arguments {
   ListArguments list;
-  RunPlan run;
+  RunArguments run;
   AdviseArguments advise;
   RepresentArguments represent;
   ExportArguments exported;
@@ -90,7 +78,6 @@ struct Arguments {
   ReportArguments report;
   std::filesystem::path info;
   std::string help;  // the command to describe; empty: the program
-  std::string profile = "quick", shard = "1/1", cases = "all";
   int threads = 0;
 };
 
@@ -103,50 +90,6 @@ void add_list(CLI::App& app, Arguments& a) {
       "representations, lods, experiments, claims, terrains, models or scene; or a paper, hybrid, "
       "ght, drill, mrbsp or meshgrow, or cross: its experiments and claims (default: all)");
   command->add_flag("--json", a.list.json, "Print JSON");
-}
-
-void add_run(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand("run", "Measure experiments into a results folder");
-  command->add_option("ids", a.run.patterns, "Experiment ids or globs such as 'hybrid.*' (default: all)");
-  command
-      ->add_option("--profile", a.profile,
-                   "quick: takes minutes; paper: the papers' sizes; scale: growth with size (cross.scale), "
-                   "kept with the measurements of the profile paper")
-      ->check(CLI::IsMember({"quick", "paper", "scale"}))
-      ->capture_default_str();
-  command->add_option(
-      "--terrain", a.run.options.terrains,
-      "Measure on these terrains: names from `terrabench list terrains`, paths of DEMs, or "
-      "drawing:FILE.png (default: each experiment's own). dem:FILE,band=2,nodata=0,unit=ft and "
-      "dem:FILE,encoding=terrarium say how a DEM is read (docs/grounds.md)");
-  command->add_option("--out", a.run.folder, "Results folder")->capture_default_str();
-  command->add_flag("--resume", a.run.resume,
-                    "Skip cases that are already in the folder, but not those that failed");
-  command
-      ->add_option("--shard", a.shard,
-                   "i/n: measure only every n-th case, starting with the i-th (docs/sweeps.md)")
-      ->capture_default_str();
-  command
-      ->add_option("--cases", a.cases,
-                   "all; timed: only cases that may record times, which want the machine to themselves; "
-                   "untimed: only the others")
-      ->check(CLI::IsMember({"all", "timed", "untimed"}))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--jobs", a.run.jobs,
-          "Measure so many untimed cases beside each other, in processes that share the threads; then "
-          "the timed ones, one by one. Takes the memory of so many cases")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  add_renderer(*command, a.run.options.renderer);
-  command->add_option("--threads", a.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--seed", a.run.options.seed, "Seed of all randomness")->capture_default_str();
-  command->add_option(
-      "--set", a.run.assignments,
-      "Parameters of the experiments: name=value or name=value,name=value. Each applies to the cases that "
-      "have it. A text value may contain commas, but not one followed by a parameter's name and '='");
 }
 
 void add_profile_to_read(CLI::App& command, std::string& profile) {
@@ -311,20 +254,12 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("merge")) return merge_command(a.merge);
   if (app.got_subcommand("info")) return info_command(a.info);
   install_signals();
-  a.run.threads = a.threads;
-  if (app.got_subcommand("advise")) return advise_command(a.advise, a.run);
+  a.run.plan.threads = a.threads;
+  if (app.got_subcommand("advise")) return advise_command(a.advise, a.run.plan);
   if (app.got_subcommand("represent")) return represent_command(a.represent);
   if (app.got_subcommand("export")) return export_command(a.exported);
   if (app.got_subcommand("render")) return render_command(a.render);
-  parse_shard(a.shard, a.run);
-  a.run.part = a.cases == "timed" ? Part::kTimed : a.cases == "untimed" ? Part::kUntimed : Part::kAll;
-  a.run.options.profile = a.profile == "paper"   ? Profile::kPaper
-                          : a.profile == "scale" ? Profile::kScale
-                                                 : Profile::kQuick;
-  const ExitCode code = run(a.run);
-  fmt::print("measurements: {}\nnext: terrabench check {}; terrabench report {}\n",
-             (a.run.folder / "measurements.jsonl").string(), a.run.folder.string(), a.run.folder.string());
-  return code;
+  return run_command(a.run);
 }
 
 int main_program(int argc, char** argv) {
@@ -334,10 +269,10 @@ int main_program(int argc, char** argv) {
   app.add_flag_callback("--allow-network", allow_network,
                         "Let DEMs that name files on the network, such as /vsicurl/ in a .vrt, fetch them");
   Arguments arguments;
-  arguments.run.command.assign(argv, argv + argc);
+  arguments.run.plan.command.assign(argv, argv + argc);
   add_list(app, arguments);
   add_advise(app, arguments.advise, arguments.threads);
-  add_run(app, arguments);
+  add_run(app, arguments.run, arguments.threads);
   add_results(app, arguments);
   add_represent(app, arguments.represent, arguments.threads);
   add_export(app, arguments.exported);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/runner.h"
 #include "representations/line_grid.h"
 #include "results/compare/compare_pictures.h"
 #include "terrain/error.h"
@@ -20,8 +21,6 @@ class App;
 
 namespace terrabench {
 
-struct RunPlan;
-
 struct ListArguments {
   // representations, lods, experiments, claims, terrains, models, scene; a paper's id: its experiments and
   // claims; empty: all
@@ -29,6 +28,13 @@ struct ListArguments {
   bool json = false;
 };
 ExitCode list_command(const ListArguments&);
+
+struct RunArguments {
+  RunPlan plan;
+  std::string profile = "quick", shard = "1/1", part = "all";  // of the plan, as given
+  bool dry_run = false;
+};
+ExitCode run_command(RunArguments);
 
 // The renderer that traces rays instead of opening an OpenGL context.
 inline constexpr std::string_view kRaytrace = "raytrace";
@@ -139,6 +145,7 @@ void print_export(const std::filesystem::path&, const RepresentationType&, const
 ExitCode info_command(const std::filesystem::path&);
 
 // Add the command with its options, which set the arguments; these must outlive the parser.
+void add_run(CLI::App&, RunArguments&, int& threads);
 void add_represent(CLI::App&, RepresentArguments&, int& threads);
 void add_export(CLI::App&, ExportArguments&);
 void add_info(CLI::App&, std::filesystem::path& file);

@@ -187,7 +187,7 @@ JudgedResults judge(const Store& store, std::span<const Paper> papers, std::span
   for (const Paper& paper : papers) {
     for (const Claim& claim : paper.claims) ids.push_back(claim.id);
   }
-  demand_matches(globs, ids, "claim");
+  demand_matches(globs, ids, "claim", "terrabench list claims");
   JudgedResults results{store.profile(), {}, store.warnings(), store.faults()};
   read_profile(store, results);
   look_for_altered_pictures(store, results);

@@ -53,7 +53,7 @@ std::vector<std::string> like(std::string_view pattern, std::span<const std::str
 }  // namespace
 
 void demand_matches(std::span<const std::string> patterns, std::span<const std::string_view> names,
-                    std::string_view kind) {
+                    std::string_view kind, std::string_view listing) {
   for (const std::string& pattern : patterns) {
     const auto matched = [&](std::string_view name) { return matches_glob(pattern, name); };
     if (std::ranges::any_of(names, matched)) continue;
@@ -61,7 +61,7 @@ void demand_matches(std::span<const std::string> patterns, std::span<const std::
     throw usage_error(
         fmt::format("unknown {} '{}'{}", kind, pattern,
                     suggestion(pattern, std::vector<std::string_view>(known.begin(), known.end()))),
-        "", fmt::format("'terrabench list {}s' names all {}", kind, names.size()));
+        "", fmt::format("'{}' names all {}", listing, names.size()));
   }
 }
 

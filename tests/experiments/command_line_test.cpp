@@ -40,6 +40,15 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
   EXPECT_THAT(call("$T help merge").text, HasSubstr("terrabench merge out shard1 shard2"));
 }
 
+TEST_F(CommandLine, ADryRunListsTheCasesAndWritesNothing) {
+  const Outcome outcome = call("$T run mrbsp.walk 'real-257/f*' --dry-run --out out");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.text,
+            "mrbsp.walk 'real-257/fitted', timed\nmrbsp.walk 'real-257/facing', timed\n"
+            "2 cases; nothing was measured\n");
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(CommandLine, WrongUseExits2AndSuggests) {
   EXPECT_EQ(call("$T").code, 2);
   EXPECT_EQ(call("$T run --profile huge").code, 2);

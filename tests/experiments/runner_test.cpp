@@ -56,6 +56,29 @@ TEST(Plan, GrowthWithSizeIsMeasuredInAProfileOfItsOwn) {
   EXPECT_THROW(plan_cases(plan), Error);
 }
 
+TEST(Plan, WordsThatMatchNoExperimentChooseAmongTheCasesOfTheOthers) {
+  RunPlan plan;
+  plan.options.profile = Profile::kPaper;
+  plan.patterns = {"hybrid.table*", "n=128", "n=5*"};
+  const std::vector<std::string> chosen = names(plan);
+  EXPECT_THAT(chosen, ::testing::IsSupersetOf({"hybrid.table1 n=128", "hybrid.table1 n=512"}));
+  EXPECT_THAT(chosen, ::testing::Not(::testing::Contains("hybrid.table1 n=256")));
+  plan.patterns = {"n=128"};  // of which experiment?
+  EXPECT_THROW(plan_cases(plan), Error);
+}
+
+TEST(Plan, AMistypedCaseHasASuggestion) {
+  RunPlan plan;
+  plan.options.profile = Profile::kPaper;
+  plan.patterns = {"hybrid.table1", "n=1288"};
+  const Failure failure = failure_of([&] { plan_cases(plan); });
+  EXPECT_EQ(failure.code, ExitCode::kUsage);
+  EXPECT_THAT(failure.what, HasSubstr("did you mean 'n=128'"));
+  EXPECT_THAT(failure.advice, HasSubstr("--dry-run"));
+  plan.patterns = {"hybrid.table1", "hybrid.tabel2"};
+  EXPECT_THAT(failure_of([&] { plan_cases(plan); }).what, HasSubstr("did you mean 'hybrid.table2'"));
+}
+
 TEST(Plan, ShardsPartitionTheCases) {
   RunPlan plan;
   const auto all = names(plan);

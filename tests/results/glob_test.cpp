@@ -35,7 +35,8 @@ TEST(Glob, ManyStarsCostNoMoreThanOne) {
 TEST(Glob, AMistypedNameOrPatternHasASuggestionAndNoList) {
   const std::vector<std::string_view> names = {"hybrid.caves", "hybrid.table1", "mrbsp.walk"};
   const auto failure = [&](const std::string& pattern) {
-    return failure_of([&] { demand_matches(std::vector{pattern}, names, "experiment"); });
+    return failure_of(
+        [&] { demand_matches(std::vector{pattern}, names, "experiment", "terrabench list experiments"); });
   };
   for (const auto& [given, meant] : {std::pair{"hybird.*", "hybrid.*"},
                                      {"hybird.t?ble1", "hybrid.t?ble1"},
@@ -46,7 +47,8 @@ TEST(Glob, AMistypedNameOrPatternHasASuggestionAndNoList) {
   EXPECT_EQ(failure("nothing").what, "unknown experiment 'nothing'");
   EXPECT_EQ(failure("nothing").code, ExitCode::kUsage);
   EXPECT_EQ(failure("nothing").advice, "'terrabench list experiments' names all 3");
-  EXPECT_NO_THROW(demand_matches(std::vector<std::string>{"mrbsp.*"}, names, "experiment"));
+  EXPECT_NO_THROW(demand_matches(std::vector<std::string>{"mrbsp.*"}, names, "experiment",
+                                 "terrabench list experiments"));
 }
 
 }  // namespace
