@@ -222,7 +222,8 @@ void draw_cross_sections(const Study& study, Recorder& recorder) {
   cross_sections_sheet(study, pixel)
       .write(recorder.figure(
           "drill.F2" + study.suffix,
-          fmt::format("The paper's figure 2, at one channel pixel of {}: (a) every tenth plane of the {} "
+          fmt::format("Redrawn after the paper\'s figure 2, at one channel pixel of {}: (a) every tenth "
+                      "plane of the {} "
                       "cross-sections, (b) the elevations along all of them, coloured by direction, "
                       "with their union and the three fits to it.",
                       study.name, CrossSections::kRays)));

@@ -91,10 +91,11 @@ void draw_error_matrices(const Study& study, const std::vector<Outcome>& outcome
   }
   error_matrices_sheet(outcomes).write(recorder.figure(
       "drill.F4" + study.suffix,
-      fmt::format("The paper's figure 4: normalised errors of the 54 parameter sets on {}, {}. "
-                  "Left the RMSE, right the AHD (the mean in plan), with one matrix per width w. "
-                  "Colours are linear, from the least of each metric (blue) to the largest (red).",
-                  study.name, study.variant.words)));
+      fmt::format(
+          "Redrawn after the paper\'s figure 4: normalised errors of the 54 parameter sets on {}, {}. "
+          "Left the RMSE, right the AHD (the mean in plan), with one matrix per width w. "
+          "Colours are linear, from the least of each metric (blue) to the largest (red).",
+          study.name, study.variant.words)));
 }
 
 }  // namespace terrabench::drill

@@ -138,12 +138,13 @@ void draw_channels(const Study& study, Recorder& recorder) {
   recorder.add("drawn_inland_networks", "", seen.inland);
   recorder.add("drawn_channels_low_share", "", seen.low_share);
   recorder.add("ground_low_share", "", seen.low_share_of_ground);
-  drawn.sheet.write(recorder.figure(
-      "drill.F1" + study.suffix,
-      fmt::format("The paper's figure 1: channel networks at four thresholds τ over the shaded relief of {}, "
-                  "{} × {} samples. Each channel pixel is drawn. "
-                  "Elevations run from blue, the lowest, over green and brown to white.",
-                  study.name, study.ground.width, study.ground.depth)));
+  drawn.sheet.write(
+      recorder.figure("drill.F1" + study.suffix,
+                      fmt::format("Redrawn after the paper\'s figure 1: channel networks at four thresholds "
+                                  "τ over the shaded relief of {}, "
+                                  "{} × {} samples. Each channel pixel is drawn. "
+                                  "Elevations run from blue, the lowest, over green and brown to white.",
+                                  study.name, study.ground.width, study.ground.depth)));
 }
 
 BestSheet best_sheet(const Study& study, const Outcome& least_rmse, const Outcome& least_ahd) {
@@ -183,10 +184,11 @@ void draw_best(const Study& study, const Outcome& least_rmse, const Outcome& lea
   }
   best.sheet.write(recorder.figure(
       "drill.F3" + study.suffix,
-      fmt::format("The paper's figure 3: {} regenerated, {}: (a) with the parameters of least RMSE, "
-                  "(b) with those of least AHD (the mean in plan). "
-                  "Where no drill reaches, the plateau remains.",
-                  study.name, study.variant.words)));
+      fmt::format(
+          "Redrawn after the paper\'s figure 3: {} regenerated, {}: (a) with the parameters of least RMSE, "
+          "(b) with those of least AHD (the mean in plan). "
+          "Where no drill reaches, the plateau remains.",
+          study.name, study.variant.words)));
 }
 
 }  // namespace terrabench::drill

@@ -234,7 +234,7 @@ void draw(const Case& at, const RunOptions& options, Recorder& recorder, Progres
       "mrbsp.F1",
       "Figure 1 of the paper, on real mountains: triangles of level of detail, with thresholds at vertices, "
       "(a) without and (b) with the extra step. Pixels that look through a hole are magenta. "
-      "T needs the step, since the threshold at its right angle alone is lower; "
+      "The triangle marked T needs the extra step, since the threshold at its right angle alone is lower; "
       "in (b) it is drawn as two halves (dashed)."));
 }
 

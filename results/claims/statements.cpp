@@ -74,6 +74,7 @@ std::string counts_text(const StandingCounts& counts, Group group) {
     std::string words(name(standing, group));
     if (count == 1 && words.starts_with("hold")) words.insert(4, "s");
     if (count == 1 && words.starts_with("do ")) words.insert(2, "es");
+    if (words.starts_with("not ")) words.insert(0, count == 1 ? "is " : "are ");
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, words);
   }
   return text;

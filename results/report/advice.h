@@ -12,7 +12,8 @@
 
 namespace terrabench {
 
-// Which methods are best at a question on a ground, by name; several if they are tied, none if it is not decided.
+// Which methods are best at a question on a ground, by name; several if they are tied, none if it is not
+// decided.
 struct Answer {
   const RankingLayout* layout;
   std::vector<std::string> best;

@@ -73,7 +73,7 @@ class Page {
                 {{"Statement"}, {"The paper"}, {"Printed"}, {"Measured as printed"}},
                 {}};
     if (with_reason) table.columns.push_back({"Why"});
-    table.columns.insert(table.columns.end(), {{"Verdict"}, {"What matches"}});
+    table.columns.insert(table.columns.end(), {{"Verdict"}, {"What does hold"}});
     for (const Statement& statement : statements_) {
       const Judgement& j = *statement.claim;
       if (j.claim->group == Group::kBeyond || cause_of(j) != cause) continue;

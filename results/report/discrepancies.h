@@ -1,5 +1,5 @@
-// "Where the papers are wrong or vague": a page made from the statements that do not hold as printed, each
-// under its cause, and from those that settle what a paper leaves open.
+// "Where measurements do not confirm the papers": a page made from the statements that do not hold as
+// printed, each under its cause, and from those that settle what a paper leaves open.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace terrabench {
 
-inline constexpr std::string_view kDiscrepanciesTitle = "Where the papers are wrong or vague";
+inline constexpr std::string_view kDiscrepanciesTitle = "Where measurements do not confirm the papers";
 
 // Links lead into the ledger. Empty if no claim belongs here.
 Document discrepancies(const JudgedResults&, std::span<const Paper>);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "results/report/report_tables.h"
@@ -41,12 +42,15 @@ Cell cell_of(const Ranking& ranking) {
 class Outcomes {
  public:
   void add(const Ranking& ranking) {
-    for (const std::string& method : ranking.best()) grounds_of_[method].push_back(grounds_);
+    const std::vector<std::string> best = ranking.best();
+    for (const std::string& method : best) grounds_of_[method].push_back(grounds_);
+    if (best.empty()) ++undecided_;
+    if (best.size() > 1) shared_.insert(grounds_);
     ++grounds_;
   }
 
-  // "ROAM on 2 of 3 grounds, clipmap and hybrid on 1": methods that are best on the same grounds stand
-  // together; those on the most grounds, and on request the next, too.
+  // "ROAM on 3 of 5 grounds (tied on 2), clipmap and hybrid on 2 (tied); not decided on 1": methods that are
+  // best on the same grounds stand together; those on the most grounds, and on request the next, too.
   std::string text(bool with_next) const {
     std::map<std::vector<int>, std::vector<std::string>> methods_of;
     for (const auto& [method, grounds] : grounds_of_) methods_of[grounds].push_back(method);
@@ -60,12 +64,21 @@ class Outcomes {
       if (!as_good && (!with_next || i > 1)) break;
       text += fmt::format("{}{} on {}", i == 0 ? "" : ", ", list_of(methods, ", ", " and "), grounds.size());
       if (i == 0) text += fmt::format(" of {} grounds", grounds_);
+      text += shares(grounds);
     }
-    return text.empty() ? fmt::format("nothing decided on {} grounds", grounds_) : text;
+    if (text.empty()) return fmt::format("not decided on {} grounds", grounds_);
+    return undecided_ == 0 ? text : text + fmt::format("; not decided on {}", undecided_);
   }
 
  private:
-  int grounds_ = 0;
+  std::string shares(const std::vector<int>& grounds) const {
+    const auto tied = std::ranges::count_if(grounds, [&](int ground) { return shared_.contains(ground); });
+    if (tied == 0) return "";
+    return std::cmp_equal(tied, grounds.size()) ? " (tied)" : fmt::format(" (tied on {})", tied);
+  }
+
+  int grounds_ = 0, undecided_ = 0;
+  std::set<int> shared_;  // grounds on which several methods are best
   std::map<std::string, std::vector<int>> grounds_of_;
 };
 

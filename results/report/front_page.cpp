@@ -66,7 +66,7 @@ Document opening(const Store& store, const JudgedResults& results) {
   if (const auto stated = counts.find(Group::kStated);
       stated != counts.end() &&
       sum(stated->second) > stated->second[static_cast<std::size_t>(Standing::kNotJudged)]) {
-    found += fmt::format(" Of {} statements in numbers or orders, {}.", sum(stated->second),
+    found += fmt::format(" Of {} statements in numbers or comparisons, {}.", sum(stated->second),
                          counts_text(stated->second, Group::kStated));
   }
   const std::vector<const Provenance*> runs = runs_of(store, results.profile);
@@ -109,22 +109,28 @@ Doors next_commands() {
            {"Find the experiments and claims of a paper", "terrabench list mrbsp"}}};
 }
 
+std::set<std::string, std::less<>> uncertain_runs(const Store& store) {
+  std::set<std::string, std::less<>> runs;
+  for (const Record& record : store.records()) {
+    const Provenance* const run = store.run(record.run);
+    if (run != nullptr && !run->timing_warnings.empty() && std::ranges::any_of(record.metrics, timed))
+      runs.insert(run->id);
+  }
+  return runs;
+}
+
 Document busy_warning(const Store& store, const JudgedResults& results, bool links) {
   std::vector<Link> busy;
-  std::set<std::string> reasons;
+  const auto uncertain = uncertain_runs(store);
   const std::vector<const Provenance*> runs = runs_of(store, results.profile);
   for (const Provenance* const run : runs) {
-    if (run->timing_warnings.empty()) continue;
-    busy.push_back({"run " + short_id(run->id), "#" + run_anchor(run->id)});
-    reasons.insert(run->timing_warnings.begin(), run->timing_warnings.end());
+    if (uncertain.contains(run->id)) busy.push_back({"run " + short_id(run->id), "#" + run_anchor(run->id)});
   }
   if (busy.empty()) return {};
-  const std::string more = reasons.size() == 1 ? "" : fmt::format("; and {} more", reasons.size() - 1);
-  return {Paragraph{
-      fmt::format(
-          "Times are uncertain in {} of {} runs, which are marked wherever their numbers stand: {}{}.",
-          busy.size(), runs.size(), *reasons.rbegin(), more),
-      true, links ? std::move(busy) : std::vector<Link>{{"Which runs", "runs.*"}}}};
+  return {
+      Paragraph{fmt::format("The times of {} of {} runs are uncertain; they are marked wherever they stand.",
+                            busy.size(), runs.size()),
+                true, links ? std::move(busy) : std::vector<Link>{{"Which runs, and why", "runs.*"}}}};
 }
 
 Document fault_warning(const Store& store, const JudgedResults& results) {

@@ -1,6 +1,8 @@
 // What the report's first screen says: what was found, and what to do next.
 #pragma once
 
+#include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +22,11 @@ Document cover_pictures(const Store&, const JudgedResults&, std::span<const Pape
 Bars verdict_bars(const JudgedResults&, std::span<const Paper* const>);
 Doors next_commands();
 
-// Warns that the machine was busy in runs that records of the profile come from, with links to these runs on
-// the same page, or one to the page of runs; nothing if it was in none.
+// The ids of the runs from which times were taken that cannot be trusted (Provenance::timing_warnings): the
+// machine was busy, or this was no release build.
+std::set<std::string, std::less<>> uncertain_runs(const Store&);
+// Names those from which records of the profile come, with links to them on the same page, or one to the page
+// of runs; nothing if there are none.
 Document busy_warning(const Store&, const JudgedResults&, bool links);
 // Says why the results cannot be trusted; nothing if they can.
 Document fault_warning(const Store&, const JudgedResults&);

@@ -109,7 +109,7 @@ class Report {
     Facts lines = headlines(rankings);
     const auto counts = count_standings(statements(results_.judgements));
     if (const auto stated = counts.find(Group::kStated); stated != counts.end()) {
-      lines.lines.emplace_back("What the papers state in numbers or orders",
+      lines.lines.emplace_back("What the papers state in numbers or comparisons",
                                counts_text(stated->second, Group::kStated) + ".");
     }
     Document brief{std::move(lines)};
@@ -181,7 +181,7 @@ class Report {
   void add_discrepancies() {
     Document page = discrepancies(results_, papers_);
     if (page.empty()) return;
-    site_.add("wrong-or-vague", "", "Wrong or vague", std::move(page));
+    site_.add("wrong-or-vague", "", "Not confirmed", std::move(page));
     document_.push_back(Heading{2, "Differences", "differences"});
     if (Table causes = causes_of_differences(results_, papers_); !causes.rows.empty())
       document_.push_back(parts_.table(std::move(causes)));

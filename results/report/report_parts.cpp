@@ -61,10 +61,9 @@ std::string command_for(const std::vector<const Record*>& records, const Store& 
 std::vector<Link> ReportParts::links_to_runs(const std::vector<std::string>& runs) const {
   std::vector<Link> links;
   for (const std::string& id : runs) {
-    const Provenance* const run = store_.run(id);
-    const bool busy = run != nullptr && !run->timing_warnings.empty();
     links.push_back(
-        {fmt::format("run {}{}", short_id(id), busy ? ", times uncertain" : ""), "runs.*#" + run_anchor(id)});
+        {fmt::format("run {}{}", short_id(id), uncertain_.contains(id) ? ", times uncertain" : ""),
+         "runs.*#" + run_anchor(id)});
   }
   return links;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "results/report/fill.h"
+#include "results/report/front_page.h"
 #include "results/report/ledger.h"
 #include "results/report/shown_pictures.h"
 
@@ -19,7 +22,7 @@ class ReportParts {
  public:
   // `out`: the report's folder. The store and the results must outlive the object.
   ReportParts(const Store& store, const JudgedResults& results, std::filesystem::path out)
-      : store_(store), results_(results), out_(std::move(out)) {}
+      : store_(store), results_(results), uncertain_(uncertain_runs(store)), out_(std::move(out)) {}
 
   // With links to the runs that the table's figures come from, and the command and the records of these.
   TableBlock table(FilledTable);
@@ -44,6 +47,7 @@ class ReportParts {
 
   const Store& store_;
   const JudgedResults& results_;
+  std::set<std::string, std::less<>> uncertain_;
   std::filesystem::path out_;
   LedgerLinks links_;
 };

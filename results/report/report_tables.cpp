@@ -64,8 +64,8 @@ std::string standings_sentence(const JudgedResults& results) {
   const std::vector<Statement> of_papers = statements(results.judgements);
   std::string text;
   for (const auto& [group, counts] : count_standings(of_papers)) {
-    constexpr std::string_view kWhat[] = {"Statements of the papers in numbers or orders", "Figures drawn",
-                                          "Asked beyond the papers"};
+    constexpr std::string_view kWhat[] = {"Statements of the papers in numbers or comparisons",
+                                          "Figures drawn", "Asked beyond the papers"};
     text += fmt::format("{}{}: {}, of which {}", text.empty() ? "" : " ",
                         kWhat[static_cast<std::size_t>(group)], sum(counts), counts_text(counts, group));
     const int everywhere = count_everywhere(of_papers, group);
@@ -81,9 +81,9 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
   Table table{
       "summary",
       "Verdicts",
-      "Of the numbers and orders that each paper states, how many hold as printed, hold only in another "
+      "Of the numbers and comparisons that each paper states, how many hold as printed, hold only in another "
       "reading of the same words, do not hold, and are not judged: not measured in this profile, or not "
-      "comparable. Everywhere: on each further ground and in each setting that was measured. Apart from "
+      "comparable. On every ground and setting: of those that were measured. Apart from "
       "them: "
       "figures whose picture shows what the paper's does, and what we ask "
       "beyond the paper, which says nothing about it.",
@@ -91,9 +91,10 @@ Table summary_table(const JudgedResults& results, std::span<const Paper> papers)
       {}};
   for (const Standing standing : kStandings) {
     table.columns.push_back({std::string(name(standing, Group::kStated)), "", true});
-    if (standing == Standing::kAsPrinted) table.columns.push_back({"of these, everywhere", "", true});
+    if (standing == Standing::kAsPrinted)
+      table.columns.push_back({"of these, on every ground and setting", "", true});
   }
-  for (const char* const column : {"figures that hold", "beyond the paper, hold"})
+  for (const char* const column : {"figures drawn that hold", "our own questions, hold"})
     table.columns.push_back({column, "", true});
   const auto add = [&](const std::string& title, std::span<const Judgement> judgements) {
     const std::vector<Statement> of_paper = statements(judgements);

@@ -9,7 +9,7 @@
 
 namespace terrabench {
 
-// "Of 130 statements of the papers in numbers or orders, 100 hold as printed, …": a sentence per group.
+// "Of 130 statements of the papers in numbers or comparisons, 100 hold as printed, …": a sentence per group.
 std::string standings_sentence(const JudgedResults&);
 // How many statements of each paper, and of all, hold: one row per paper.
 Table summary_table(const JudgedResults&, std::span<const Paper>);

@@ -88,7 +88,7 @@ Cell standing_cell(const Statement& statement) {
 
 Table statement_table(const JudgedResults& results, const Paper& paper, Group group) {
   constexpr std::string_view kIds[] = {"stated", "figures", "beyond"},
-                             kTitles[] = {"Numbers and orders that the paper states", "Figures drawn",
+                             kTitles[] = {"Numbers and comparisons that the paper states", "Figures drawn",
                                           "What we ask beyond the paper"};
   const auto index = static_cast<std::size_t>(group);
   Table table{

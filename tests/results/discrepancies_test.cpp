@@ -58,7 +58,7 @@ TEST_F(Discrepancies, StatementsAreCountedOnceAndApartFromOurOwn) {
   EXPECT_THAT(
       page(),
       HasSubstr(
-          "Statements of the papers in numbers or orders: 4, of which 1 holds as printed, 1 holds in another "
+          "Statements of the papers in numbers or comparisons: 4, of which 1 holds as printed, 1 holds in another "
           "reading, 2 do not hold. Asked beyond the papers: 1, of which 1 does not hold."));
 }
 
