@@ -14,6 +14,7 @@
 #include "experiments/hybrid/grounds.h"
 #include "renderers/frame_timer.h"
 #include "renderers/grass/grass_scene.h"
+#include "results/store/statistics.h"
 #include "terrain/metrics/image_error.h"
 
 namespace terrabench::hybrid {
@@ -37,7 +38,8 @@ const std::array kTable3Specs{
 
 std::vector<Case> table3_cases(const RunOptions& options) {
   if (options.profile == Profile::kPaper) return cases_by("technique", kTable3Specs);
-  return cases_by("technique", kTable3Specs, {{"frames", std::int64_t{3}}, {"warm_up", std::int64_t{1}}});
+  return cases_by("technique", kTable3Specs,
+                  {{"frames", std::int64_t{kFewestSamples}}, {"warm_up", std::int64_t{1}}});
 }
 
 TriangleMesh recorded_ground(Recorder& recorder, const RunOptions& options, int cells) {

@@ -30,10 +30,10 @@ const std::array kSpecs{
 };
 
 // Of the relief; of the volume, and twenty times as much of the air under overhangs (setting_search.h).
-// Heights are ranked at the largest error, since drills reach no smaller one, solids at the smallest, at
-// which none of them fills a tunnel.
+// Rays and edits are measured at one: over heights at the largest, since drills reach no smaller one, over
+// solids at the smallest, at which no type fills a tunnel.
 constexpr std::array kErrorsOfHeights{0.001, 0.005, 0.02}, kErrorsOfSolids{0.005, 0.01, 0.02};
-double ranked_error(bool solid) { return solid ? kErrorsOfSolids[0] : kErrorsOfHeights[2]; }
+double edited_error(bool solid) { return solid ? kErrorsOfSolids[0] : kErrorsOfHeights[2]; }
 // Cells between the core of a cavity and what is solid. The centre of the cell around a point is less than
 // 0.87 cells away, so that cells sampled at their centres keep a core as air.
 constexpr float kMargin = 1;
@@ -58,7 +58,7 @@ std::vector<Case> cases(const RunOptions& options) {
       };
       add("", 0);
       for (const double error : solid ? kErrorsOfSolids : kErrorsOfHeights) {
-        if (!paper && error != ranked_error(solid)) continue;
+        if (!paper && (error == kErrorsOfHeights[1] || error == kErrorsOfSolids[1])) continue;
         add(fmt::format("/{}={:g}%", solid ? "volume" : "rmse", 100 * error), error);
       }
     }
@@ -149,8 +149,8 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const double error = at.parameters.number("error");
   const int rays = at.integer("rays");
   if (error == 0) return measure_costs(ground, type, ground.parameters(type), rays, recorder, progress);
-  const bool ranked = error == ranked_error(ground.source.solid.has_value());
-  measure_at_error(ground, type, error, ranked ? rays : 0, recorder, progress);
+  const bool edited = error == edited_error(ground.source.solid.has_value());
+  measure_at_error(ground, type, error, edited ? rays : 0, recorder, progress);
 }
 
 }  // namespace
