@@ -4,7 +4,7 @@
 //   type = {of = "representations"}
 //   caster = {of = "representations", with = ["rays"], except = ["voxel"]}
 //   approximate = {of = "representations", without = ["lossless", "materials"]}
-//   open_scene = {of = "scene", without = ["roofed"]}
+//   open_scene = {of = "scene", without = ["overhangs"]}
 //
 // The members of `of` that have all fields of `with`, none of `without`, and are not named in `except`, in
 // their order. `of` is a listed set of the file, or one that was declared. results/ knows no method, so the

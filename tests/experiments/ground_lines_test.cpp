@@ -9,9 +9,9 @@ namespace terrabench::cross {
 namespace {
 
 // 64 m cubed. Solid up to 24 m; a roof from 40 to 48 m over the western half.
-TerrainSource roofed() {
+TerrainSource overhanging() {
   TerrainSource source;
-  source.name = "roofed";
+  source.name = "overhanging";
   source.solid = Solid{
       {{0, 0, 0}, {64, 64, 64}}, std::string(32, '0'), [](const ColumnSamples& at, std::span<Material> out) {
         for (std::size_t k = 0; k < out.size(); ++k) {
@@ -52,7 +52,7 @@ TEST(GroundLines, LengthsOfPartsAreExact) {
 }
 
 TEST(GroundLines, RandomLinesLieInTheirSquaresAndOnNoGrid) {
-  const TerrainSource source = roofed();
+  const TerrainSource source = overhanging();
   const GroundLines lines = random_lines(source, 16, 1), middles = ground_lines(source, 16);
   ASSERT_EQ(lines.x.size(), 16U * 16);
   double moved = 0;
@@ -65,7 +65,7 @@ TEST(GroundLines, RandomLinesLieInTheirSquaresAndOnNoGrid) {
 }
 
 TEST(GroundLines, VolumesAndTheAirUnderOverhangsHaveErrorsOfTheirOwn) {
-  const TerrainSource source = roofed();
+  const TerrainSource source = overhanging();
   const GroundLines lines = random_lines(source, 16, 1);
   const VolumeErrors exact = volume_errors(*build("layered_stack", source, 64), lines);
   EXPECT_EQ(exact.volume, 0);
@@ -78,7 +78,7 @@ TEST(GroundLines, VolumesAndTheAirUnderOverhangsHaveErrorsOfTheirOwn) {
 
 // A floor at a third of a sample's distance from where samples lie.
 TEST(GroundLines, EndsLieBetweenSamples) {
-  TerrainSource source = roofed();
+  TerrainSource source = overhanging();
   source.solid->column = [](const ColumnSamples& at, std::span<Material> out) {
     for (std::size_t k = 0; k < out.size(); ++k) {
       out[k] = at.y0 + static_cast<float>(k) * at.dy < 24.3F ? Material::kBedrock : Material::kAir;
@@ -91,7 +91,7 @@ TEST(GroundLines, EndsLieBetweenSamples) {
 }
 
 TEST(GroundLines, AStructureOnTheGridIsExact) {
-  const Differences found = between("layered_stack", roofed(), 64);
+  const Differences found = between("layered_stack", overhanging(), 64);
   EXPECT_EQ(found.rmse, 0);
   EXPECT_EQ(found.largest, 0);
   EXPECT_EQ(found.lost_columns, 0U);
@@ -106,7 +106,7 @@ TEST(GroundLines, AStructureOnTheGridIsExact) {
 }
 
 TEST(GroundLines, HeightsFillWhatIsUnderARoof) {
-  const Differences found = between("heightmap", roofed(), 64);
+  const Differences found = between("heightmap", overhanging(), 64);
   EXPECT_EQ(found.rmse, 0);
   EXPECT_EQ(found.cavities_filled, found.cavities);
   EXPECT_EQ(found.cores_filled, found.cores);
