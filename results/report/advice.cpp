@@ -108,9 +108,8 @@ Table advice(std::span<const Ranking> here, std::span<const Answer> elsewhere) {
       "",
       "",
       "Take: the best method, or those that are tied. Next and lead: the best of the others, and by which "
-      "factor it is behind. Reference: on how many of the reference grounds of this kind a method to take is "
-      "best or "
-      "tied, too; or which method is best there on most.",
+      "factor it is behind. Reference: on how many reference grounds of this kind, without this one, a "
+      "method to take is best or tied, too; or which method is best there on most.",
       {{"Question"}, {"Take"}, {"Next"}, {"Lead"}, {"Reference"}, {"Why"}},
       {}};
   for (const Ranking& ranking : here) {

@@ -10,6 +10,7 @@
 #include "results/claims/judge.h"
 #include "results/claims/ranking.h"
 #include "results/claims/statements.h"
+#include "results/report/advice.h"
 #include "results/report/citation.h"
 #include "results/report/discrepancies.h"
 #include "results/report/fill.h"
@@ -46,6 +47,7 @@ class Report {
         papers_(papers),
         out_(out),
         results_(judge(store, papers)),
+        rankings_(rank(ranking_layouts(), store, results_.profile)),
         further_(further_grounds(papers, {store, results_.profile})),
         parts_(store, results_, out) {}
 
@@ -103,17 +105,16 @@ class Report {
 
   // The main page shows the part before the heading.
   void add_findings() {
-    const std::vector<Ranking> rankings = rank(ranking_layouts(), store_, results_.profile);
-    if (rankings.empty()) return;
-    write_file(out_ / "findings.json", findings_json(rankings));
-    Facts lines = headlines(rankings);
+    if (rankings_.empty()) return;
+    write_file(out_ / "findings.json", findings_json(rankings_));
+    Facts lines = headlines(rankings_);
     const auto counts = count_standings(statements(results_.judgements));
     if (const auto stated = counts.find(Group::kStated); stated != counts.end()) {
       lines.lines.emplace_back("What the papers state in numbers or comparisons",
                                counts_text(stated->second, Group::kStated) + ".");
     }
     Document brief{std::move(lines)};
-    for (Table& table : findings_tables(rankings)) {
+    for (Table& table : findings_tables(rankings_)) {
       findings_ += plain_text(table) + "\n";
       brief.push_back(parts_.table(std::move(table)));
     }
@@ -121,7 +122,7 @@ class Report {
     std::ranges::copy(brief, std::back_inserter(page));
     page.push_back(Heading{2, "Every value, with the 95 % interval of each factor", "values"});
     page.push_back(Paragraph{tie_rule()});
-    page.push_back(findings(rankings));
+    page.push_back(findings(rankings_));
     site_.add("findings", "", "Findings", std::move(page));
     document_.push_back(Heading{2, "Findings", "findings"});
     add(std::move(brief));
@@ -246,10 +247,26 @@ class Report {
     Document remarks{Paragraph{fmt::format("Measured in profile “{}”.", results_.profile)}};
     append(remarks, fault_warning(store_, results_));
     for (const std::string& warning : warnings) remarks.push_back(Paragraph{warning, true});
+    append(remarks, answers_for(layout));
     Document page = parts_.ground_page(paper, layout, std::move(remarks));
     if (page.empty()) return false;
     site_.add(ground_page(layout.id), kGrounds, layout.label, std::move(page));
     return true;
+  }
+
+  // Which methods are best on a ground of the claims files.
+  Document answers_for(const PageLayout& ground) {
+    std::vector<Ranking> here, elsewhere;
+    for (const Ranking& ranking : rankings_)
+      (ranking.layout->ground == ground.id ? here : elsewhere).push_back(ranking);
+    if (here.empty()) return {};
+    FilledTable filled{advice(here, answers(elsewhere)), {}};
+    filled.table.id = "answers." + ground.id;
+    filled.table.title = "Which method for " + ground.label;
+    std::set<std::string> runs;
+    for (const Ranking& ranking : here) runs.insert(ranking.runs.begin(), ranking.runs.end());
+    filled.runs.assign(runs.begin(), runs.end());
+    return {parts_.table(std::move(filled))};
   }
 
   // How many statements hold, in a sentence per group.
@@ -326,6 +343,7 @@ class Report {
   std::span<const Paper> papers_;
   const std::filesystem::path& out_;
   JudgedResults results_;
+  std::vector<Ranking> rankings_;
   std::vector<FurtherGround> further_;
   ReportParts parts_;
   Site site_;

@@ -147,6 +147,7 @@ TEST_F(FurtherPageTest, IsNotWrittenIfNothingOnItWasMeasured) {
   measure("jacksboro");
   write();
   EXPECT_EQ(pages(), (std::set<std::string>{"ground-jacksboro.html", "ground-jacksboro.md"}));
+  EXPECT_THAT(written("ground-jacksboro.html"), HasSubstr("Which method for jacksboro"));
   EXPECT_THAT(written("index.html"), Not(HasSubstr("Further grounds")));
 }
 
