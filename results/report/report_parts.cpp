@@ -39,6 +39,28 @@ bool is_plain(std::string_view name) {
   });
 }
 
+// Names for `run` those of an experiment's cases that the records are of, as " 'real-257/fitted'" or, if they
+// only begin alike, " 'real-257/*'"; empty if they do not.
+std::string cases_of(const std::vector<const Record*>& records) {
+  const std::string& first = records.front()->case_name;
+  const auto plain = [](std::string_view name) {
+    return std::ranges::all_of(name, [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("._-/=%").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+  };
+  const auto all = [&](auto holds) {
+    return std::ranges::all_of(records,
+                               [&](const Record* r) { return holds(std::string_view(r->case_name)); });
+  };
+  if (!plain(first)) return "";
+  if (all([&](std::string_view name) { return name == first; })) return fmt::format(" '{}'", first);
+  const std::string ground = first.substr(0, first.find('/')) + "/";
+  if (ground.size() > first.size()) return "";
+  return all([&](std::string_view name) { return name.starts_with(ground); }) ? fmt::format(" '{}*'", ground)
+                                                                              : "";
+}
+
 // What measures these records again. Empty if a name is not plain, or if other options are needed: a file of
 // the user's, parameters, a seed.
 std::string command_for(const std::vector<const Record*>& records, const Store& store) {
@@ -53,7 +75,7 @@ std::string command_for(const std::vector<const Record*>& records, const Store& 
     const Provenance* const run = store.run(record->run);
     if (run != nullptr && run->command.find("--profile scale") != run->command.npos) profile = "scale";
   }
-  return command + " --profile " + profile;
+  return command + cases_of(records) + " --profile " + profile;
 }
 
 }  // namespace

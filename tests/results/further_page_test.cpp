@@ -200,7 +200,7 @@ TEST_F(FurtherPageTest, OpensWithTheGroundIfNoClaimWasMeasured) {
   const std::string text = written("index.html");
   EXPECT_THAT(text, HasSubstr("<h1 id=\"top\">Which method for alps.tif</h1>"));
   EXPECT_THAT(text, Not(HasSubstr("class=\"warning\"")));
-  EXPECT_THAT(text, HasSubstr("<td>heightmap</td><td>drills</td><td>2 ×</td>"));
+  EXPECT_THAT(text, HasSubstr("<td>heightmap</td><td>drills</td><td>2\u00a0×</td>"));
   EXPECT_THAT(text, Not(HasSubstr("nothing of them was measured")));
   EXPECT_THAT(text, HasSubstr("../figures/cross.error-maps." + ground_id("/x/alps.tif") + ".webp"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report/wrong-or-vague.html"));
