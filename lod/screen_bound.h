@@ -29,6 +29,9 @@ class ScreenBound {
 
   // Writes the allowed vertical error in boxes first … last - 1 to metres[first … last - 1].
   void allow(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
+  // Likewise in a ball. At most as much as in a ball inside it, in spite of rounding, if the inner ball keeps
+  // 1e-7 of the outer radius away from the outer surface.
+  double allow(const glm::dvec3& centre, double radius) const;
   // Likewise by de Boer's rule, for the middles of the boxes.
   void allow_level_camera(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
 
