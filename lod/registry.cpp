@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/cbt/cbt.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
 #include "lod/hybrid/hybrid.h"
@@ -108,6 +109,15 @@ std::vector<LodType>& table() {
        Rtin::build,
        kByMiddle,
        kByDistanceSquared},
+      {"cbt",
+       "CBT",
+       "right triangles kept as bits between frames, split and merged by one level per pass",
+       "Dupuy 2020",
+       {.conforming = true, .bounds_error = true},
+       Cbt::knob(),
+       Cbt::parameters(),
+       "",
+       Cbt::build},
   };
   return types;
 }

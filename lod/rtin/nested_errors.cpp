@@ -48,6 +48,15 @@ void NestedErrors::update(glm::ivec2 low, glm::ivec2 high) {
   for (int step = 1; step < 1 << lattice_.side_log; step *= 2) nest_level(step, {low, high});
 }
 
+Bounds NestedErrors::box(const Triangle& t) const {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const glm::vec2 low = plan(glm::min(glm::min(t.a, t.b), t.c)),
+                  high = plan(glm::max(glm::max(t.a, t.b), t.c));
+  const double middle = grid_.heights[lattice_.vertex(t.middle())], radius = at(t.middle()).radius;
+  return {{low.x, static_cast<float>(std::max(middle - radius, -kLargest)), low.y},
+          {high.x, static_cast<float>(std::min(middle + radius, kLargest)), high.y}};
+}
+
 NestedErrors::Range NestedErrors::around(const Range& range, int steps) const {
   return {glm::max(range.low - steps, 0), glm::min(range.high + steps, size_ - 1)};
 }

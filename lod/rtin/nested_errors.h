@@ -15,6 +15,7 @@
 #include "terrain/frame.h"
 #include "terrain/memory.h"
 #include "terrain/progress.h"
+#include "terrain/solid.h"
 
 namespace terrabench::rtin {
 
@@ -40,6 +41,8 @@ class NestedErrors {
     const glm::vec2 at = plan(point);
     return {at.x, grid_.heights[lattice_.vertex(point)], at.y};
   }
+  // Around a triangle that splits() and the samples under it; halves' boxes lie in those of their triangle.
+  Bounds box(const Triangle&) const;
   Memory memory() const { return index_memory(own_, nested_); }
 
  private:

@@ -1,8 +1,8 @@
 #include "lod/rtin/rtin.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "lod/changed_indices.h"
 #include "lod/screen_bound.h"
 #include "terrain/frustum.h"
 #include "terrain/memory.h"
@@ -14,15 +14,6 @@ using rtin::Nested, rtin::Next, rtin::Triangle;
 namespace {
 
 constexpr std::string_view kErrors[] = {"exact", "midpoint"};
-
-// Around a triangle and the samples under it.
-Bounds box_around(const rtin::NestedErrors& errors, const Triangle& t, double height, double radius) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  const glm::vec2 low = errors.plan(glm::min(glm::min(t.a, t.b), t.c)),
-                  high = errors.plan(glm::max(glm::max(t.a, t.b), t.c));
-  return {{low.x, static_cast<float>(std::max(height - radius, -kLargest)), low.y},
-          {high.x, static_cast<float>(std::min(height + radius, kLargest)), high.y}};
-}
 
 }  // namespace
 
@@ -65,11 +56,7 @@ const Frame& Rtin::update(const View& view) {
   const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
   uploads_.assign(edits_.begin(), edits_.end());
   edits_.clear();
-  const auto same = static_cast<std::uint32_t>(std::ranges::mismatch(indices_, last_).in1 - indices_.begin());
-  if (same < size(indices_)) {
-    uploads_.push_back(
-        {.target = DirtyRange::Target::kIndices, .first = same, .count = size(indices_) - same});
-  }
+  append_changed(indices_, last_, uploads_);
   if (first_) uploads_.push_back({.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)});
   first_ = false;
   batches_[0] = {.index_count = size(indices_)};
@@ -98,9 +85,7 @@ void Rtin::descend_for(const View& view) {
     if (!t.splits()) return Next::kDraw;
     const Nested& nested = errors_.at(t.middle());
     const glm::dvec3 middle = errors_.position(t.middle());
-    if (planes != 0 &&
-        frustum.see(box_around(errors_, t, middle.y, nested.radius), planes) == Sight::kOutside)
-      return Next::kSkip;
+    if (planes != 0 && frustum.see(errors_.box(t), planes) == Sight::kOutside) return Next::kSkip;
     return nested.error > bound.allow(middle, nested.radius) ? Next::kSplit : Next::kDraw;
   };
   descend(errors_.lattice(), Frustum::kAllPlanes, choose, [&](const Triangle& t) { draw(t); });

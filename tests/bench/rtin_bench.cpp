@@ -5,6 +5,7 @@
 #include <map>
 
 #include "lod/camera/camera_path.h"
+#include "lod/cbt/cbt.h"
 #include "lod/rtin/rtin.h"
 #include "tests/bench/mountains.h"
 
@@ -37,13 +38,15 @@ void mesh(benchmark::State& state) {
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 
+template <class Method>
 void update(benchmark::State& state) {
   Progress silent;
   const Heightfield& field = ground(4097);
-  Rtin lod(field, {}, silent);
+  Method lod(field, {}, silent);
   const std::vector<View> path = views(camera_path("fly"), field);
+  lod.update(path[0]);
   std::size_t frames = 0, triangles = 0;
-  for (auto _ : state) triangles += lod.update(path[frames++ % path.size()]).stats.triangles;
+  for (auto _ : state) triangles += lod.update(path[++frames % path.size()]).stats.triangles;
   state.counters["triangles"] = static_cast<double>(triangles) / static_cast<double>(frames);
 }
 
@@ -56,7 +59,8 @@ void edit(benchmark::State& state) {
 
 BENCHMARK(errors)->ArgsProduct({{513, 4097}, {0, 1}})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(mesh)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMillisecond);
-BENCHMARK(update)->Unit(benchmark::kMillisecond);
+BENCHMARK(update<Rtin>)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(update<Cbt>)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(edit)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
