@@ -3,18 +3,21 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/cbt/cbt.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
 #include "lod/hybrid/hybrid.h"
 #include "lod/lod.h"
 #include "lod/mrbsp/mrbsp.h"
 #include "lod/roam/roam.h"
+#include "lod/rtin/rtin.h"
 #include "terrain/error.h"
 
 namespace terrabench {
 namespace {
 
 constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
+constexpr LodVariant kByMiddle[] = {{"midpoint", "midpoint errors", "error=midpoint"}};
 constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
 
 // A clipmap and the hybrid hold and read windows, of which there are log n.
@@ -95,6 +98,26 @@ std::vector<LodType>& table() {
        Mrbsp::build,
        kByArea,
        kByDistance},
+      {"rtin",
+       "RTIN",
+       "right triangles bisected anew from the roots in each frame, by nested exact errors",
+       "Evans et al. 2001",
+       {.conforming = true, .bounds_error = true},
+       Rtin::knob(),
+       Rtin::parameters(),
+       "",
+       Rtin::build,
+       kByMiddle,
+       kByDistanceSquared},
+      {"cbt",
+       "CBT",
+       "right triangles kept as bits between frames, split and merged by one level per pass",
+       "Dupuy 2020",
+       {.conforming = true, .bounds_error = true},
+       Cbt::knob(),
+       Cbt::parameters(),
+       "",
+       Cbt::build},
   };
   return types;
 }

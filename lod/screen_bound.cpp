@@ -49,6 +49,19 @@ void ScreenBound::allow(const Boxes& boxes, std::size_t first, std::size_t last,
   }
 }
 
+// Of a ball around eye_ + off.
+double ScreenBound::least_depth(const glm::dvec3& off, double radius) const {
+  const double nearest = std::max(near_, (std::sqrt(glm::dot(off, off)) - radius) / secant_);
+  return std::max(nearest, glm::dot(off, forward_) - radius);
+}
+
+double ScreenBound::allow(const glm::dvec3& centre, double radius) const {
+  const glm::dvec3 off = centre - eye_;
+  const double least = least_depth(off, radius);
+  const double spread = std::min(secant_, (std::sqrt(off.x * off.x + off.z * off.z) + radius) / least);
+  return (1 - 1e-6) * pixels_ * least / (focal_ * spread + pixels_ * std::abs(forward_.y));
+}
+
 void ScreenBound::allow_level_camera(const Boxes& boxes, std::size_t first, std::size_t last,
                                      float* metres) const {
   for (std::size_t k = first; k < last; ++k) {

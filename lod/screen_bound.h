@@ -29,10 +29,19 @@ class ScreenBound {
 
   // Writes the allowed vertical error in boxes first … last - 1 to metres[first … last - 1].
   void allow(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
+  // Likewise in a ball. At most as much as in a ball inside it, in spite of rounding, if the inner ball keeps
+  // 1e-7 of the outer radius away from the outer surface.
+  double allow(const glm::dvec3& centre, double radius) const;
+  // The length of as many pixels across the line of sight at the least depth in a ball, metres.
+  double length(const glm::dvec3& centre, double radius) const {
+    return pixels_ * least_depth(centre - eye_, radius) / focal_;
+  }
   // Likewise by de Boer's rule, for the middles of the boxes.
   void allow_level_camera(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
 
  private:
+  double least_depth(const glm::dvec3& off, double radius) const;
+
   glm::dvec3 eye_, forward_;
   double pixels_, focal_, near_;
   double secant_;  // of the angle between the line of sight and a corner of the screen
