@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
+#include "lod/cdlod/cdlod.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
 #include "lod/hybrid/hybrid.h"
@@ -15,6 +16,7 @@ namespace terrabench {
 namespace {
 
 constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
+constexpr LodVariant kByDistanceAlone[] = {{"distance", "ranges by distance", "ranges=distance"}};
 constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
 
 // A clipmap and the hybrid hold and read windows, of which there are log n.
@@ -62,6 +64,16 @@ std::vector<LodType>& table() {
        GeoMipMap::build,
        kMorphing,
        kAllPatches},
+      {"cdlod",
+       "CDLOD",
+       "nodes of a quadtree by distance, whose vertices morph to the next coarser level",
+       "Strugar 2009",
+       {.conforming = true, .bounds_error = true},
+       Cdlod::knob(),
+       Cdlod::parameters(),
+       "morph=false",
+       Cdlod::build,
+       kByDistanceAlone},
       {"clipmap",
        "clipmap",
        "nested windows of samples around the eye, each twice as coarse as the next inner one",
