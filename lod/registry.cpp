@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
 #include "lod/cbt/cbt.h"
+#include "lod/cdlod/cdlod.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
 #include "lod/hybrid/hybrid.h"
@@ -18,6 +21,7 @@ namespace {
 
 constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
 constexpr LodVariant kByMiddle[] = {{"midpoint", "midpoint errors", "error=midpoint"}};
+constexpr LodVariant kByDistanceAlone[] = {{"distance", "ranges by distance", "ranges=distance"}};
 constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
 
 // A clipmap and the hybrid hold and read windows, of which there are log n.
@@ -65,6 +69,16 @@ std::vector<LodType>& table() {
        GeoMipMap::build,
        kMorphing,
        kAllPatches},
+      {"cdlod",
+       "CDLOD",
+       "nodes of a quadtree by distance, whose vertices morph to the next coarser level",
+       "Strugar 2009",
+       {.conforming = true, .bounds_error = true, .compared = false},
+       Cdlod::knob(),
+       Cdlod::parameters(),
+       "morph=false",
+       Cdlod::build,
+       kByDistanceAlone},
       {"clipmap",
        "clipmap",
        "nested windows of samples around the eye, each twice as coarse as the next inner one",
@@ -102,7 +116,7 @@ std::vector<LodType>& table() {
        "RTIN",
        "right triangles bisected anew from the roots in each frame, by nested exact errors",
        "Evans et al. 2001",
-       {.conforming = true, .bounds_error = true},
+       {.conforming = true, .bounds_error = true, .compared = false},
        Rtin::knob(),
        Rtin::parameters(),
        "",
@@ -113,7 +127,7 @@ std::vector<LodType>& table() {
        "CBT",
        "right triangles kept as bits between frames, split and merged by one level per pass",
        "Dupuy 2020",
-       {.conforming = true, .bounds_error = true},
+       {.conforming = true, .bounds_error = true, .compared = false},
        Cbt::knob(),
        Cbt::parameters(),
        "",
@@ -134,11 +148,18 @@ void add_lod(const LodType& type) {
   table().push_back(type);
 }
 
+std::vector<std::reference_wrapper<const LodType>> compared_lods() {
+  std::vector<std::reference_wrapper<const LodType>> compared;
+  std::ranges::copy_if(lods(), std::back_inserter(compared),
+                       [](const LodType& type) { return type.traits.compared; });
+  return compared;
+}
+
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
-  for (const LodType& type : lods())
+  for (const LodType& type : compared_lods())
     all.push_back({std::string(type.name), std::string(type.name), "", std::string(type.label)});
-  for (const LodType& type : lods()) {
+  for (const LodType& type : compared_lods()) {
     for (const LodVariant& variant : type.variants) {
       all.push_back({fmt::format("{}_{}", type.name, variant.name), std::string(type.name),
                      fmt::format("{}.{}", type.name, variant.option),

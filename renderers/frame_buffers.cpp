@@ -17,8 +17,10 @@ struct GroundBlock {
   glm::vec2 cell;
   glm::ivec2 first, last, origin;
   std::int32_t side, patch_side;
+  glm::vec3 eye;
+  std::int32_t morph_ranges;
 };
-static_assert(sizeof(GroundBlock) == 48);
+static_assert(sizeof(GroundBlock) == 64);
 static_assert(sizeof(PatchMorph) == 5 * sizeof(float));
 
 constexpr GLuint kGroundBinding = 1;
@@ -202,6 +204,9 @@ std::uint32_t FrameBuffers::describe(const Frame& frame) {
   for (const ClipLevel& level : frame.clip_levels) {
     level_records_.push_back({level.corner, level.eye, level.from, level.to, level.spacing, 0});
   }
+  for (const MorphRange& range : frame.morph_ranges) {
+    level_records_.push_back({{}, {}, range.from, range.to, 1, 0});
+  }
   batches_.replace(batch_records_);
   levels_.replace(level_records_);
   commands_.replace(draw_commands_);
@@ -211,7 +216,9 @@ std::uint32_t FrameBuffers::describe(const Frame& frame) {
                           frame.last,
                           frame.origin,
                           frame.clip_levels.empty() ? 0 : frame.clip_levels.front().side,
-                          frame.patch_side};
+                          frame.patch_side,
+                          frame.eye,
+                          static_cast<std::int32_t>(frame.morph_ranges.size())};
   ground_.write(0, &block, sizeof block);
   return triangle;
 }

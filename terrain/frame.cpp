@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace terrabench {
@@ -78,6 +79,24 @@ glm::vec3 morphed_position(const Frame& frame, const Batch& batch, std::uint32_t
   return position;
 }
 
+// The share of its way that a vertex has morphed at this distance.
+float morphed_share(const MorphRange& range, float distance) {
+  if (range.from >= range.to) return 0;
+  return std::clamp((distance - range.from) / (range.to - range.from), 0.0F, 1.0F);
+}
+
+glm::vec3 node_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
+  const auto width = static_cast<std::uint32_t>(frame.grid.width);
+  const auto place = [&](std::uint32_t v) { return glm::ivec2(v % width, v / width); };
+  const MorphingNode node(frame.grid, frame.patch_side, batch.level, place(batch.base_vertex));
+  const glm::ivec2 at = node.place(place(vertex), batch.morph);
+  glm::vec3 position =
+      grid_position(frame.grid, static_cast<std::uint32_t>(at.y) * width + static_cast<std::uint32_t>(at.x));
+  const float share = morphed_share(frame.morph_ranges[batch.level], glm::distance(frame.eye, position));
+  if (share > 0) position.y = between(position.y, node.coarser(at), share);
+  return position;
+}
+
 float clip_height(const ClipLevel& level, int a, int b) {
   const int mask = level.side - 1;
   return level.heights[static_cast<std::size_t>(b & mask) * level.side + (a & mask)];
@@ -127,8 +146,8 @@ std::size_t DirtyRange::bytes() const {
 }
 
 FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes,
-                 std::size_t clip_levels, std::span<const FrameMesh> meshes) {
-  FrameStats stats{.bytes_commands = kBytesPerBatch * batches.size() + kBytesPerClipLevel * clip_levels,
+                 std::size_t levels, std::span<const FrameMesh> meshes) {
+  FrameStats stats{.bytes_commands = kBytesPerBatch * batches.size() + kBytesPerClipLevel * levels,
                    .changes = changes};
   for (const Batch& batch : batches) stats.triangles += batch.index_count / 3;
   for (const FrameMesh& mesh : meshes) {
@@ -144,8 +163,50 @@ float morphed_height(const GroundGrid& grid, int patch_side, const PatchMorph& m
   return MorphingPatch{grid, morph, level, low, high}.height(at);
 }
 
+MorphingNode::MorphingNode(const GroundGrid& of, int side, int level, glm::ivec2 corner)
+    : grid(of),
+      step(1 << level),
+      low(corner),
+      high(glm::min(corner + (side << level), glm::ivec2(of.width, of.depth) - 1)) {}
+
+// `step` along the axes in which the vertex lies between those of the next coarser level, which keeps the
+// last.
+glm::ivec2 MorphingNode::odd(glm::ivec2 at) const {
+  return {at.x == high.x ? 0 : (at.x - low.x) & step, at.y == high.y ? 0 : (at.y - low.y) & step};
+}
+
+// To the north and west vertices move down and to the south and east up, so that the triangles around each
+// become a fan.
+glm::ivec2 MorphingNode::place(glm::ivec2 vertex, unsigned seams) const {
+  const auto seam = [&](int side) { return (seams >> side & 1U) != 0; };
+  const glm::ivec2 odd = this->odd(vertex), before = vertex - odd, after = glm::min(vertex + odd, high);
+  if (vertex.y == low.y && seam(0)) return before;
+  if (vertex.y == high.y && seam(2)) return after;
+  if (vertex.x == low.x && seam(3)) return before;
+  if (vertex.x == high.x && seam(1)) return after;
+  return vertex;
+}
+
+float MorphingNode::coarser(glm::ivec2 at) const {
+  const auto height = [&](int x, int z) {
+    return grid.heights[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.width) +
+                        static_cast<std::size_t>(x)];
+  };
+  const glm::ivec2 odd = this->odd(at), before = at - odd, after = glm::min(at + odd, high);
+  if (odd == glm::ivec2(0)) return height(at.x, at.y);
+  const glm::vec2 way = glm::vec2(at - before) / glm::vec2(glm::max(after - before, 1));
+  // In the middle of a cell of level l + 1, at `way` from its north-western corner: on its diagonal, or
+  // beyond it where the border cuts the cell.
+  const float south_west = height(before.x, after.y), north_east = height(after.x, before.y);
+  if (odd.x == 0) return between(north_east, south_west, way.y);
+  if (odd.y == 0) return between(south_west, north_east, way.x);
+  const float diagonal = between(south_west, north_east, (1 - way.y) / (2 - way.x - way.y));
+  return between(diagonal, height(after.x, after.y), way.x + way.y - 1);
+}
+
 glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
   if (!frame.clip_levels.empty()) return clip_position(frame, batch, vertex);
+  if (!frame.morph_ranges.empty()) return node_position(frame, batch, vertex);
   return frame.morphs.empty() ? grid_position(frame.grid, vertex) : morphed_position(frame, batch, vertex);
 }
 

@@ -46,6 +46,35 @@ struct PatchMorph {
   std::array<float, 4> sides{};  // north, east, south, west
 };
 
+// A square node of the grid whose vertices morph to the next coarser level by their distance from the eye
+// (Strugar 2009). At level l it has side × side cells of 2^l samples, split from south-west to north-east;
+// the ground's border cuts it, and the last vertices are then the border's. The vertices that level l + 1
+// drops, those with an odd coordinate, move vertically to its surface. In the paper they slide to the even
+// vertex beside them: the surfaces at both ends of the way are the same. On a side with a coarser neighbour
+// they do lie on an even vertex, so that the two nodes share all vertices there.
+struct MorphingNode {
+  MorphingNode(const GroundGrid& of, int side, int level, glm::ivec2 low);
+
+  // Where the vertex is drawn; bit s of `seams` is set when the neighbour at side s is coarser. Sides: north,
+  // east, south, west. O(1).
+  glm::ivec2 place(glm::ivec2 vertex, unsigned seams) const;
+  // The height of level l + 1 over a sample of level l. O(1).
+  float coarser(glm::ivec2 at) const;
+
+  const GroundGrid& grid;
+  int step;              // samples, 2^l
+  glm::ivec2 low, high;  // corners, samples
+
+ private:
+  glm::ivec2 odd(glm::ivec2 at) const;
+};
+
+// The share of their way that the vertices of a level have morphed at a distance d from the eye, in metres:
+// clamp((d - from) / (to - from)). from = to: they do not morph.
+struct MorphRange {
+  float from = 0, to = 0;
+};
+
 // A range of an index array, three indices per triangle.
 struct IndexRange {
   std::uint32_t first_index = 0, index_count = 0;
@@ -56,7 +85,7 @@ struct Batch {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t base_vertex = 0;
   std::uint16_t level = 0;  // 0 is the finest; number of the clip level when the frame has clip levels
-  std::uint32_t morph = 0;  // number in Frame::morphs, when the frame has morphs
+  std::uint32_t morph = 0;  // number in Frame::morphs; for morphing nodes, the sides with a coarser neighbour
 };
 
 // A mesh in space that a frame draws beside its heights, such as a chunk of an implicit surface; triangles
@@ -90,7 +119,7 @@ struct DirtyRange {
 };
 
 // Bytes sent to the GPU with every frame, changed or not: per batch a draw command of 20 bytes and a record
-// of 16, and per clip level its position and transition.
+// of 16, and per clip level its position and transition, or per level of morphing nodes its range.
 inline constexpr std::size_t kBytesPerBatch = 36;
 inline constexpr std::size_t kBytesPerClipLevel = 32;
 
@@ -117,14 +146,19 @@ struct Frame {
   // vertex. Empty: all vertices of the grid lie at their samples.
   std::span<const PatchMorph> morphs{};
   int patch_side = 0;
+  // By level, for morphing nodes of patch_side × patch_side cells, whose low corner is their batch's base
+  // vertex, and the eye from which their vertices' distances count. Empty: no nodes morph.
+  std::span<const MorphRange> morph_ranges{};
+  glm::vec3 eye{0};
   std::span<const FrameMesh> meshes{};
   std::span<const DirtyRange> uploads{};
   FrameStats stats{};
 };
 
-// The stats of a frame with these batches, uploads, clip levels and meshes. O(batches + uploads + meshes).
+// The stats of a frame with these batches, uploads and meshes; `levels`: clip levels, or levels of morphing
+// nodes. O(batches + uploads + meshes).
 FrameStats count(std::span<const Batch>, std::span<const DirtyRange>, std::size_t changes,
-                 std::size_t clip_levels = 0, std::span<const FrameMesh> = {});
+                 std::size_t levels = 0, std::span<const FrameMesh> = {});
 
 // The height of sample (i, j) in the patch whose low corner is sample (i0, j0). O(1).
 float morphed_height(const GroundGrid&, int patch_side, const PatchMorph&, int level, glm::ivec2 low,

@@ -6,7 +6,7 @@ struct BatchRecord {
   int level;
   uint first_triangle;
   uint corner;
-  uint morph;
+  uint morph;  // of patches, or the seams of a morphing node
 };
 struct LevelRecord {
   ivec2 corner;
@@ -24,7 +24,9 @@ layout(std140, binding = 1) uniform Ground {
   vec2 cell;                  // metres
   ivec2 first, last, origin;  // of Frame, for clip levels
   int side;                   // of the clip levels; 0 for a grid
-  int patch_side;             // cells; 0 without morphs
+  int patch_side;             // cells; 0 without patches or nodes that morph
+  vec3 morph_eye;             // metres
+  int morph_ranges;           // levels of morphing nodes; 0 without
 };
 
 float sample_at(ivec2 at) { return heights[at.y * samples.x + at.x]; }
@@ -74,8 +76,48 @@ float morphed_height(BatchRecord batch, ivec2 at) {
   return between(sample_at(at), there, share);
 }
 
+// MorphingNode of terrain/frame.cpp.
+ivec2 odd_in_node(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
+  ivec2 odd = (at - low) & (1 << batch.level);
+  return ivec2(at.x == high.x ? 0 : odd.x, at.y == high.y ? 0 : odd.y);
+}
+
+ivec2 place_in_node(BatchRecord batch, ivec2 vertex, ivec2 low, ivec2 high) {
+  ivec2 odd = odd_in_node(batch, vertex, low, high), before = vertex - odd, after = min(vertex + odd, high);
+  if (vertex.y == low.y && (batch.morph & 1u) != 0u) return before;
+  if (vertex.y == high.y && (batch.morph & 4u) != 0u) return after;
+  if (vertex.x == low.x && (batch.morph & 8u) != 0u) return before;
+  if (vertex.x == high.x && (batch.morph & 2u) != 0u) return after;
+  return vertex;
+}
+
+float coarser(BatchRecord batch, ivec2 at, ivec2 low, ivec2 high) {
+  ivec2 odd = odd_in_node(batch, at, low, high), before = at - odd, after = min(at + odd, high);
+  if (odd == ivec2(0)) return sample_at(at);
+  vec2 way = vec2(at - before) / vec2(max(after - before, 1));
+  float south_west = sample_at(ivec2(before.x, after.y)), north_east = sample_at(ivec2(after.x, before.y));
+  if (odd.x == 0) return between(north_east, south_west, way.y);
+  if (odd.y == 0) return between(south_west, north_east, way.x);
+  float diagonal = between(south_west, north_east, (1.0 - way.y) / (2.0 - way.x - way.y));
+  return between(diagonal, sample_at(after), way.x + way.y - 1.0);
+}
+
+vec3 node_position(BatchRecord batch, ivec2 vertex) {
+  ivec2 low = ivec2(int(batch.corner) % samples.x, int(batch.corner) / samples.x);
+  ivec2 high = min(low + (patch_side << batch.level), samples - 1);
+  ivec2 at = place_in_node(batch, vertex, low, high);
+  vec3 position = vec3(float(at.x) * cell.x, sample_at(at), float(at.y) * cell.y);
+  LevelRecord level = levels[batch.level];
+  float share = level.from < level.to
+                    ? clamp((distance(morph_eye, position) - level.from) / (level.to - level.from), 0.0, 1.0)
+                    : 0.0;
+  if (share > 0.0) position.y = between(position.y, coarser(batch, at, low, high), share);
+  return position;
+}
+
 vec3 grid_position(BatchRecord batch) {
   ivec2 at = ivec2(gl_VertexID % samples.x, gl_VertexID / samples.x);
+  if (morph_ranges > 0) return node_position(batch, at);
   float y = patch_side == 0 ? heights[gl_VertexID] : morphed_height(batch, at);
   return vec3(float(at.x) * cell.x, y, float(at.y) * cell.y);
 }

@@ -42,8 +42,7 @@ vec2 clip_slope(BatchRecord batch) {
 void main() {
   BatchRecord batch = batches[batch_number];
   world = frame_position(batch);
-  vec2 slope =
-      side == 0 ? grid_slope(ivec2(gl_VertexID % samples.x, gl_VertexID / samples.x)) : clip_slope(batch);
+  vec2 slope = side == 0 ? grid_slope(ivec2(round(world.xz / cell))) : clip_slope(batch);
   normal = normalize(vec3(-slope.x, 1.0, -slope.y));
   gl_Position = world_to_clip * vec4(world, 1.0);
   gl_ClipDistance[0] = dot(clip_plane, vec4(world, 1.0));

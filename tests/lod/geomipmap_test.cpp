@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "lod/camera/camera_path.h"
@@ -12,6 +11,7 @@
 #include "lod/plan_triangle.h"
 #include "terrain/error.h"
 #include "tests/lod/drawing.h"
+#include "tests/lod/promises.h"
 
 namespace terrabench::test {
 namespace {
@@ -21,37 +21,6 @@ GeoMipMap make(const Heightfield& field, const GeoMipMap::Options& options, doub
   GeoMipMap lod(field, options, silent);
   lod.tune(pixels);
   return lod;
-}
-
-// An eye near the ground, high above it, below it or outside, looking in any direction.
-View random_view(const Heightfield& field, std::mt19937& random) {
-  std::uniform_real_distribution<float> unit(0, 1);
-  const float size = std::max(field.extent_x(), field.extent_z());
-  View view;
-  view.eye = {(1.4F * unit(random) - 0.2F) * field.extent_x(), 0,
-              (1.4F * unit(random) - 0.2F) * field.extent_z()};
-  view.eye.y = unit(random) < 0.5F ? 20 * unit(random) : -15 + size * unit(random);
-  view.target = view.eye + glm::vec3(unit(random) - 0.5F, 0.6F * unit(random) - 0.5F, unit(random) - 0.5F);
-  view.vertical_fov = 0.3F + 1.5F * unit(random);
-  view.width = 50 + static_cast<int>(700 * unit(random));
-  view.height = 50 + static_cast<int>(500 * unit(random));
-  view.near = 0.1F + unit(random);
-  view.far = 4 * size + 100;
-  return view;
-}
-
-// Checks that there are no cracks, no error above the bound, and no undrawn samples. Returns the largest
-// error.
-double expect_promises(const Frame& frame, const Heightfield& field, const View& view, double pixels) {
-  const CrackReport cracks = find_cracks(frame, field.width, field.depth, view);
-  EXPECT_TRUE(cracks.tight()) << cracks.gaps << " gaps, " << cracks.bare_edges << " bare, "
-                              << cracks.overlaps;
-  EXPECT_EQ(cracks.t_junctions, 0U);
-  const ScreenDeviation error =
-      screen_error(SurfaceRaster(frame, field.width, field.depth), field, SeenSamples(field, view));
-  EXPECT_LE(error.in_frustum.largest, pixels);
-  EXPECT_EQ(error.in_frustum.undrawn, 0U);
-  return error.in_frustum.largest;
 }
 
 // Without and with the morph.
