@@ -7,7 +7,8 @@
 // screen is at most the knob from any eye in any direction; or, `ranges=distance`, as in the paper: each
 // level's range is twice as long as the finer one's, and the knob is the size on the screen to which the
 // cells of a level shrink before the level ends. Ranges that are too small for the nodes are enlarged, so
-// that no setting opens a seam (ranges.h). Ranges hold for the whole ground: its roughest place decides.
+// that no setting opens a seam (ranges.h). Ranges hold for the whole ground, so the roughest place decides
+// how fine the smooth ones are.
 //
 // Where the paper is vague or weaker, this was chosen. Vertices morph vertically (MorphingNode). Nodes that
 // the ground's border cuts may pop in their last cells: these are narrower, and the diagonals of two levels

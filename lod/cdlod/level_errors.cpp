@@ -10,7 +10,7 @@
 namespace terrabench::cdlod {
 namespace {
 
-// The finest measure of a level's triangles, one cell after another.
+// Measures the triangles of one level, cell by cell.
 class Ruler {
  public:
   Ruler(const GroundGrid& grid, const PatchGrid& nodes, int side, int level, bool morphs)
