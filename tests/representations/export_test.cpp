@@ -1,6 +1,7 @@
 // What every type writes for other programs is what it answers: rasters and tables to the bit.
 #include "representations/export/export.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>
 
@@ -152,7 +153,7 @@ TEST(SpanTable, OtherFilesAreRefused) {
   const auto what = [&](const std::string& text) {
     return failure_of([&] { read_spans(folder.write("a.csv", text)); }).what;
   };
-  const std::string head = std::string(kSpanHeader) + "\n";
+  const std::string head = fmt::format("{}\n", kSpanHeader);
   for (const std::string& text :
        {std::string("x,y\n"), head + "1,2,3,4,1\n1,2,3\n", head + "1,zwei,3,4,1\n"}) {
     EXPECT_THAT(what(text), HasSubstr("no table of spans")) << text;
