@@ -55,11 +55,10 @@ TEST_F(Discrepancies, ACauseStandsOnceWithAllItsStatements) {
 }
 
 TEST_F(Discrepancies, StatementsAreCountedOnceAndApartFromOurOwn) {
-  EXPECT_THAT(
-      page(),
-      HasSubstr(
-          "Statements of the papers in numbers or comparisons: 4, of which 1 holds as printed, 1 holds in another "
-          "reading, 2 do not hold. Asked beyond the papers: 1, of which 1 does not hold."));
+  EXPECT_THAT(page(),
+              HasSubstr("Statements of the papers in numbers or comparisons: 4, of which 1 holds as printed, "
+                        "1 holds in another "
+                        "reading, 2 do not hold. Asked beyond the papers: 1, of which 1 does not hold."));
 }
 
 }  // namespace
