@@ -32,10 +32,10 @@ SetMember member(const RepresentationType& type) {
                  {"growth_in_solids", type.growth_in_solids.has_value()}});
 }
 
-SetMember member(std::string_view name, std::string_view label, const LodType& type) {
+SetMember member(std::string_view name, std::string_view label, const LodType& type, bool bounds_error) {
   return member(name, label,
                 {{"conforming", type.traits.conforming},
-                 {"bounds_error", type.traits.bounds_error},
+                 {"bounds_error", bounds_error},
                  {"near_surface", type.traits.near_surface},
                  {"tunable", type.tunable()},
                  {"joins", !type.unstitched.empty()},
@@ -47,9 +47,11 @@ SetMember member(std::string_view name, std::string_view label, const LodType& t
 void declare_methods() {
   Sets sets;
   for (const RepresentationType& type : representations()) sets["representations"].push_back(member(type));
-  for (const LodType& type : compared_lods()) sets["lods"].push_back(member(type.name, type.label, type));
+  for (const LodType& type : compared_lods())
+    sets["lods"].push_back(member(type.name, type.label, type, type.traits.bounds_error));
   for (const Entrant& entrant : entrants())
-    sets["entrants"].push_back(member(entrant.name, entrant.label, lod(entrant.method)));
+    sets["entrants"].push_back(
+        member(entrant.name, entrant.label, lod(entrant.method), entrant.bounds_error));
   declare_sets(std::move(sets));
 }
 

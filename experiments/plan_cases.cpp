@@ -107,7 +107,7 @@ void keep_named(const std::vector<std::string>& globs, std::vector<PlannedCase>&
   std::vector<std::string_view> names;
   for (const PlannedCase& planned : cases) names.push_back(planned.at.name);
   for (const Experiment& experiment : experiments()) names.push_back(experiment.id);  // for suggestions
-  demand_matches(globs, names, "experiment or case", "terrabench run --dry-run");
+  demand_matches(globs, names, "experiment or case", "terrabench run EXPERIMENT --dry-run");
   std::erase_if(cases, [&](const PlannedCase& planned) { return !matches_any(globs, planned.at.name); });
 }
 

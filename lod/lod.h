@@ -75,6 +75,7 @@ struct LodTraits {
 struct LodVariant {
   std::string_view name, label;  // added to the method's: geomipmap_morph, "geomipmap, morphing"
   std::string_view option;       // "name=value"
+  bool bounds_error = true;      // keeps LodTraits::bounds_error
 };
 
 // How costs grow in theory with the samples n of the ground, along one path at one error on the screen: upper
@@ -116,6 +117,7 @@ struct Entrant {
   std::string name;             // in case names
   std::string method, options;  // options: such as "geomipmap.morph=true"; empty: the defaults
   std::string label = {};       // in figures
+  bool bounds_error = false;    // LodTraits::bounds_error, LodVariant::bounds_error
 };
 std::vector<Entrant> entrants();
 

@@ -20,8 +20,8 @@ namespace terrabench {
 namespace {
 
 constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
-constexpr LodVariant kByMiddle[] = {{"midpoint", "midpoint errors", "error=midpoint"}};
-constexpr LodVariant kByDistanceAlone[] = {{"distance", "ranges by distance", "ranges=distance"}};
+constexpr LodVariant kByMiddle[] = {{"midpoint", "midpoint errors", "error=midpoint", false}};
+constexpr LodVariant kByDistanceAlone[] = {{"distance", "ranges by distance", "ranges=distance", false}};
 constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
 
 // A clipmap and the hybrid hold and read windows, of which there are log n.
@@ -158,12 +158,14 @@ std::vector<std::reference_wrapper<const LodType>> compared_lods() {
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const LodType& type : compared_lods())
-    all.push_back({std::string(type.name), std::string(type.name), "", std::string(type.label)});
+    all.push_back({std::string(type.name), std::string(type.name), "", std::string(type.label),
+                   type.traits.bounds_error});
   for (const LodType& type : compared_lods()) {
     for (const LodVariant& variant : type.variants) {
       all.push_back({fmt::format("{}_{}", type.name, variant.name), std::string(type.name),
                      fmt::format("{}.{}", type.name, variant.option),
-                     fmt::format("{}, {}", type.label, variant.label)});
+                     fmt::format("{}, {}", type.label, variant.label),
+                     type.traits.bounds_error && variant.bounds_error});
     }
   }
   return all;

@@ -6,7 +6,7 @@
 //
 // A leaf is split while it is in view and its nested exact error (lod/rtin/nested_errors.h) may show as more
 // than the knob's pixels, as by rtin, whose triangles are the same. `split=edge` takes the paper's criterion
-// instead, that the longest edge shows as more than so many pixels, which bounds no error. The paper makes
+// instead, that the longest edge, in plan, shows as more than so many pixels, which bounds no error. The paper makes
 // one pass per frame (`passes=1`): after a jump of the eye the mesh is behind by a level per frame, and the
 // bound is not kept meanwhile. By default an update passes until nothing changes, from the second pass on
 // over what the last one changed.

@@ -91,12 +91,10 @@ class Ruler {
   Extremes extremes_;
 };
 
-float relief_of(const NodeTree& tree, int level, const PatchGrid::Patch& block) {
-  const int side = tree.grid(level).side;
+float relief_of(const NodeTree& tree, int level) {
   float relief = 0;
-  for (int z = block.j0 / side; z <= (block.j0 + block.rows - 1) / side; ++z) {
-    for (int x = block.i0 / side; x <= (block.i0 + block.columns - 1) / side; ++x)
-      relief = std::max(relief, tree.relief(level, x, z));
+  for (int z = 0; z < tree.grid(level).down(); ++z) {
+    for (int x = 0; x < tree.grid(level).across(); ++x) relief = std::max(relief, tree.relief(level, x, z));
   }
   return relief;
 }
@@ -131,15 +129,14 @@ void LevelErrors::measure(const GroundGrid& grid, const NodeTree& tree, const Sa
         const PatchGrid::Patch block = blocks.patch(x, z);
         Ruler ruler(grid, tree.grid(level), side_, level, level + 1 < tree.levels());
         ruler.measure(block);
-        Extremes& here =
-            of_level[static_cast<std::size_t>(z) * blocks.across() + static_cast<std::size_t>(x)];
-        here = ruler.extremes();
-        here.relief = relief_of(tree, level, block);
+        of_level[static_cast<std::size_t>(z) * blocks.across() + static_cast<std::size_t>(x)] =
+            ruler.extremes();
       }
       if (progress != nullptr) progress->advance();
     });
     levels_[l] = {};
     for (std::size_t k = 0; k < blocks.count(); ++k) levels_[l].add(of_level[k]);
+    levels_[l].relief = relief_of(tree, level);
   }
 }
 

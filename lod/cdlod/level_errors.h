@@ -23,13 +23,12 @@ struct Extremes {
   float drawn = 0;    // error of the level's surface
   float morphed = 0;  // error of a surface between it and the next coarser level's; 0 for the coarsest
   float rise = 0;     // the highest less the lowest sample in a triangle
-  float relief = 0;   // the same in a node
+  float relief = 0;   // the same in a node; of a level alone, not of a block
 
   void add(const Extremes& other) {
     drawn = std::max(drawn, other.drawn);
     morphed = std::max(morphed, other.morphed);
     rise = std::max(rise, other.rise);
-    relief = std::max(relief, other.relief);
   }
 };
 
@@ -39,7 +38,8 @@ class LevelErrors {
   LevelErrors(const GroundGrid&, const NodeTree&, int side, Progress&);
 
   const Extremes& of(int level) const { return levels_[static_cast<std::size_t>(level)]; }
-  // Measures the blocks again that hold these samples; reads all blocks' measures.
+  // Measures the blocks again that hold these samples; reads all blocks' measures and the reliefs of all
+  // nodes, which are measured before.
   void measure(const GroundGrid&, const NodeTree&, const SampleRect&, Progress* = nullptr);
   Memory memory() const { return index_memory(grids_, firsts_, blocks_, levels_); }
 

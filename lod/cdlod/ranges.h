@@ -9,12 +9,11 @@
 // A quarter of a node of level m > l is drawn only where its box does not reach end(m - 1), so all its points
 // are at end(m - 1) ≥ end(l) or farther. Let a node of level l be drawn beside it. Its box reaches end(l), so
 // its points are nearer than end(l) + node(l), the diagonal of the largest box of level l. Since from(l + 1)
-// ≥ end(l) + node(l), points of the side that they share are nearer than from(l + 1) < end(l + 1), hence m =
-// l
-// + 1, and none of the vertices that the coarser node has there has begun to morph. The finer node has the
-// same vertices there (MorphingNode). All vertices of its triangles at the side are at end(l) - triangle(l)
-// or farther, where triangle(l) is the longest distance within a triangle of level l; since `to` ≤ this, they
-// have arrived, and joining the side does not move the surface.
+// ≥ end(l) + node(l), points of the side that they share are nearer than from(l + 1) < end(l + 1). Hence
+// m = l + 1, and none of the vertices that the coarser node has there has begun to morph. The finer node has
+// the same vertices there (MorphingNode). All vertices of its triangles at the side are at end(l) -
+// triangle(l) or farther, where triangle(l) is the longest distance within a triangle of level l; since `to`
+// ≤ this, they have arrived, and joining the side does not move the surface.
 #pragma once
 
 #include <span>

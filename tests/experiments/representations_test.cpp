@@ -55,6 +55,16 @@ TEST(RepresentationCases, NameEveryType) {
   }
 }
 
+// Rankings read both in every profile.
+TEST(RepresentationCases, QuickHasTheFineAndTheCoarseError) {
+  std::set<std::string> names;
+  for (const Case& at : experiment(kId).cases({})) names.insert(at.name);
+  for (const char* const at : {"/rmse=0.1%", "/rmse=2%"})
+    EXPECT_TRUE(names.contains("jacksboro/tin" + std::string(at))) << at;
+  for (const char* const at : {"/volume=0.5%", "/volume=2%"})
+    EXPECT_TRUE(names.contains("caves/voxel" + std::string(at))) << at;
+}
+
 TEST(RepresentationCases, AreRankedOnlyWhereTheyAreComparable) {
   std::set<std::string> needed;
   for (const RankingLayout& ranking : ranking_layouts()) {

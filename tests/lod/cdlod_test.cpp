@@ -129,6 +129,26 @@ TEST(FitRanges, HoldWhatClosesTheSurface) {
 
 // All nodes of a level, with vertices that have morphed or not as their distances from random points say, and
 // sides joined at random.
+// A node of a coarse level spans many blocks, of which an edit measures few.
+TEST(LevelErrors, ForgetAPeakThatIsLevelled) {
+  constexpr int kSide = 16, kLevels = 6;
+  Heightfield field = hilly(600, 500, 1);
+  field.at(300, 200) += 1000;
+  const GroundGrid grid = grid_of(field);
+  cdlod::NodeTree tree(grid, kSide, kLevels);
+  cdlod::LevelErrors errors(grid, tree, kSide, silent());
+  field.at(300, 200) -= 1000;
+  const SampleRect rect{{300, 200}, {300, 200}};
+  tree.measure(grid, rect);
+  errors.measure(grid, tree, rect);
+  const cdlod::LevelErrors fresh(grid, tree, kSide, silent());
+  for (int level = 0; level < kLevels; ++level) {
+    EXPECT_EQ(errors.of(level).relief, fresh.of(level).relief) << level;
+    EXPECT_EQ(errors.of(level).drawn, fresh.of(level).drawn) << level;
+    EXPECT_EQ(errors.of(level).morphed, fresh.of(level).morphed) << level;
+  }
+}
+
 TEST(LevelErrors, BoundEveryMorph) {
   constexpr int kSide = 8, kLevels = 4;
   const Heightfield field = hilly(77, 90, 2);

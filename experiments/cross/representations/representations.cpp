@@ -57,8 +57,9 @@ std::vector<Case> cases(const RunOptions& options) {
                          terrain});
       };
       add("", 0);
-      for (const double error : solid ? kErrorsOfSolids : kErrorsOfHeights) {
-        if (!paper && (error == kErrorsOfHeights[1] || error == kErrorsOfSolids[1])) continue;
+      const auto& errors = solid ? kErrorsOfSolids : kErrorsOfHeights;
+      for (const double error : errors) {
+        if (!paper && error == errors[1]) continue;
         add(fmt::format("/{}={:g}%", solid ? "volume" : "rmse", 100 * error), error);
       }
     }
