@@ -20,10 +20,17 @@ std::string line(const Entries& entries, std::string_view separator, Write write
   return text;
 }
 
+// "1.5 ×" stays on one line.
+std::string unbroken(std::string text) {
+  for (std::size_t at = text.find(" ×"); at != text.npos; at = text.find(" ×", at))
+    text.replace(at, 1, "\u00a0");
+  return text;
+}
+
 std::string html_cell(const Cell& cell, const Column& column, bool heads_row) {
-  const std::string text = cell.link.empty() ? escape_html(cell.text)
-                                             : fmt::format("<a href=\"{}\">{}</a>", escape_html(cell.link),
-                                                           escape_html(cell.text));
+  const std::string words = unbroken(escape_html(cell.text));
+  const std::string text =
+      cell.link.empty() ? words : fmt::format("<a href=\"{}\">{}</a>", escape_html(cell.link), words);
   std::string style = cell.style;
   if (column.numeric) style += style.empty() ? "number" : " number";
   std::string attribute = cell.anchor.empty() ? "" : fmt::format(" id=\"{}\"", escape_html(cell.anchor));

@@ -85,8 +85,8 @@ std::string list_of(const std::vector<std::string>& parts, std::string_view betw
 }
 
 std::string escape_html(std::string_view text) {
-  constexpr Replacement kHtml[] = {{"&", "&amp;"}, {"<", "&lt;"},    {">", "&gt;"}, {"\"", "&quot;"},
-                                   {"'", "&#39;"}, {" ×", "\u00a0×"}};  // "1.5 ×" stays on one line
+  constexpr Replacement kHtml[] = {
+      {"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}};
   return replace(printable(text), kHtml);
 }
 
