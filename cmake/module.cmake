@@ -20,7 +20,7 @@ function(terrabench_tests module)
   add_executable(${module}_tests ${sources})
   target_link_libraries(${module}_tests PRIVATE ${module} GTest::gtest_main GTest::gmock ${ARGN})
   if(NOT TERRABENCH_SANITIZE)
-    # Half of the time to compile them: their own code need not be fast, and most of it is GoogleTest's headers.
+    # Halves the tests' compile time: most of it is GoogleTest's headers, and test code need not be fast.
     # GCC 12 takes precompiled headers for the program's own and warns wrongly of moves in std::string (bug 105329).
     target_compile_options(${module}_tests PRIVATE $<$<CONFIG:Release>:-O1>
       $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overread>)

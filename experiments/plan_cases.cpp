@@ -72,8 +72,8 @@ void apply(const std::vector<std::string>& assignments, std::vector<PlannedCase>
   }
 }
 
-// The words of a plan: globs of experiments, and globs of their cases, which are the words that match no
-// experiment. Throws usage_error if no word matches one.
+// A plan's words: globs of experiments; words that match no experiment are globs of their cases. Throws
+// usage_error if no word matches an experiment.
 struct Choice {
   explicit Choice(const std::vector<std::string>& words) {
     for (const std::string& word : words) (is_experiment(word) ? ids : case_names).push_back(word);

@@ -32,7 +32,7 @@ class ScreenBound {
   // Likewise in a ball. At most as much as in a ball inside it, in spite of rounding, if the inner ball keeps
   // 1e-7 of the outer radius away from the outer surface.
   double allow(const glm::dvec3& centre, double radius) const;
-  // The length of as many pixels across the line of sight at the least depth in a ball, metres.
+  // Metres that the given pixels span across the line of sight, at the ball's least depth.
   double length(const glm::dvec3& centre, double radius) const {
     return pixels_ * least_depth(centre - eye_, radius) / focal_;
   }

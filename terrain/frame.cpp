@@ -175,8 +175,8 @@ glm::ivec2 MorphingNode::odd(glm::ivec2 at) const {
   return {at.x == high.x ? 0 : (at.x - low.x) & step, at.y == high.y ? 0 : (at.y - low.y) & step};
 }
 
-// To the north and west vertices move down and to the south and east up, so that the triangles around each
-// become a fan.
+// On north and west sides vertices move to lower coordinates, on the others to higher, so that the triangles
+// around each form a fan.
 glm::ivec2 MorphingNode::place(glm::ivec2 vertex, unsigned seams) const {
   const auto seam = [&](int side) { return (seams >> side & 1U) != 0; };
   const glm::ivec2 odd = this->odd(vertex), before = vertex - odd, after = glm::min(vertex + odd, high);

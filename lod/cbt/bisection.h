@@ -1,6 +1,6 @@
 // The triangles of longest-edge bisection as nodes of a binary tree (Dupuy 2020, §4), over a lattice of any
-// number of root squares. The roots are the first nodes of the first level that has room for them. Nodes have
-// triangles and neighbours by their number alone: the bits say which half to take. O(level) per node.
+// number of root squares. The roots are the first nodes of the first level that has room for them. A node's
+// number gives its triangle and neighbours: its bits choose the halves. O(level) per node.
 #pragma once
 
 #include <array>

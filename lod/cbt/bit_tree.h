@@ -38,7 +38,7 @@ class BitTree {
   bool is_split(NodeId node) const { return level_of(node) < depth_ && sum(2 * node + 1) > 0; }
   // A leaf of its own, which must not be below another.
   void add_leaf(NodeId node) { add_to_sums(node, 1); }
-  // Of a leaf, of a node whose halves are leaves.
+  // Arguments: a leaf; the parent of two leaves.
   void split(NodeId node) { add_to_sums(2 * node + 1, 1); }
   void merge(NodeId node) { add_to_sums(2 * node + 1, ~std::uint64_t{0}); }
   Memory memory() const { return index_memory(words_); }
@@ -54,7 +54,7 @@ class BitTree {
     const std::size_t first = (std::size_t{2} << level) + node * bits;
     return {first / 64, static_cast<unsigned>(first % 64), bits};
   }
-  // To the bit of the node's leftmost descendant and all sums above, modulo 2^64. A sum stays in its range.
+  // Adds modulo 2^64 to the bit of the node's leftmost descendant and all sums above; none overflows.
   void add_to_sums(NodeId node, std::uint64_t number) {
     for (NodeId n = node << (depth_ - level_of(node)); n > 0; n /= 2) {
       const Place at = place(n);

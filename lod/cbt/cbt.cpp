@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "lod/changed_indices.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
@@ -56,51 +55,33 @@ std::unique_ptr<Lod> Cbt::build(const LodGround& from, const Parameters& paramet
 }
 
 Cbt::Cbt(const Heightfield& ground, const Options& options, Progress& progress)
-    : grid_(grid_of(ground)),
-      options_(options),
-      errors_(grid_, true, progress),
+    : options_(options),
+      errors_(grid_of(ground), true, progress),
       bisection_(errors_.lattice()),
       tree_(empty_tree(bisection_.depth())),
-      batches_(1) {
+      frame_(ground) {
   for (NodeId k = 0; k < bisection_.roots(); ++k) tree_.add_leaf(bisection_.root(k));
-  uploads_.reserve(2);
 }
 
 void Cbt::edited(const SampleRect& rect) {
-  check_edit(rect, grid_.width, grid_.depth);
+  frame_.edited(rect);
   errors_.update(rect.low, rect.high);
-  if (!first_) append_heights(grid_, rect, edits_);
 }
 
 const Frame& Cbt::update(const View& view) {
   check_view(view);
   const Criterion criterion{errors_, ScreenBound(view, pixels_), Frustum(view),
-                            options_.by_edge ? std::max(grid_.cell_x, grid_.cell_z) : 0};
+                            options_.by_edge ? std::max(frame_.grid().cell_x, frame_.grid().cell_z) : 0};
   decide_all(criterion);
   std::size_t changes = apply();
   for (int passes = 1; passes != options_.passes && !touched_.empty(); ++passes) {
     decide_touched(criterion);
     changes += apply();
   }
-  std::swap(indices_, last_);
-  indices_.clear();
+  frame_.begin();
   for (NodeId k = 0; k < bisection_.roots(); ++k)
     draw(bisection_.at(bisection_.root(k)), Frustum::kAllPlanes, criterion.frustum);
-  const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
-  uploads_.assign(edits_.begin(), edits_.end());
-  edits_.clear();
-  append_changed(indices_, last_, uploads_);
-  if (first_) uploads_.push_back({.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)});
-  first_ = false;
-  batches_[0] = {.index_count = size(indices_)};
-  frame_ = {.grid = grid_,
-            .cell_x = grid_.cell_x,
-            .cell_z = grid_.cell_z,
-            .indices = indices_,
-            .batches = batches_,
-            .uploads = uploads_,
-            .stats = count(batches_, uploads_, changes)};
-  return frame_;
+  return frame_.finish(changes);
 }
 
 void Cbt::decide_all(const Criterion& criterion) {
@@ -142,7 +123,7 @@ Cbt::Decision Cbt::decide(const Place& leaf, const Place& parent, const Criterio
   return left && parent.node != 0 && mergeable(parent, criterion) ? Decision{parent.node, true} : Decision{};
 }
 
-// Merges come first, as splits make again what they need of it.
+// Merges come first: a split undoes those in its way.
 std::size_t Cbt::apply() {
   touched_.clear();
   std::size_t changes = 0;
@@ -175,7 +156,7 @@ std::size_t Cbt::split(NodeId node) {
   return changes;
 }
 
-// Two merges before may have touched the leaf that decided.
+// The same merge may be decided twice, since two earlier merges may touch one leaf.
 std::size_t Cbt::merge(NodeId node) {
   if (!tree_.is_split(node)) return 0;
   std::size_t changes = 0;
@@ -198,16 +179,16 @@ void Cbt::draw(const Place& place, unsigned planes, const Frustum& frustum) {
     draw(place.half(false), planes, frustum);
     draw(place.half(true), planes, frustum);
   } else if (const rtin::Lattice& lattice = errors_.lattice(); lattice.over_ground(t)) {
-    for (const glm::ivec2 corner : {t.a, t.b, t.c}) indices_.push_back(lattice.vertex(corner));
+    for (const glm::ivec2 corner : {t.a, t.b, t.c}) frame_.add_corner(lattice.vertex(corner));
   }
 }
 
 Memory Cbt::memory() const {
   Memory memory = errors_.memory();
   memory.index += heap_bytes(this);
-  memory += payload_memory(indices_, last_);
+  memory += frame_.memory();
   memory += tree_.memory();
-  memory += index_memory(decisions_, touched_, batches_, uploads_, edits_);
+  memory += index_memory(decisions_, touched_);
   return memory;
 }
 

@@ -6,12 +6,12 @@
 //
 // A leaf is split while it is in view and its nested exact error (lod/rtin/nested_errors.h) may show as more
 // than the knob's pixels, as by rtin, whose triangles are the same. `split=edge` takes the paper's criterion
-// instead, that the longest edge, in plan, shows as more than so many pixels, which bounds no error. The paper makes
-// one pass per frame (`passes=1`): after a jump of the eye the mesh is behind by a level per frame, and the
-// bound is not kept meanwhile. By default an update passes until nothing changes, from the second pass on
-// over what the last one changed.
+// instead, that the longest edge, in plan, shows as more than so many pixels, which bounds no error. The
+// paper makes one pass per frame (`passes=1`): after a jump of the eye the mesh is behind by a level per
+// frame, and the bound is not kept meanwhile. By default an update passes until nothing changes, from the
+// second pass on over what the last one changed.
 //
-// A pass is O(leaves · levels), about 0.5 µs each, plus O(levels²) per change. The tree is one byte per
+// A pass is O(leaves · levels), about 0.5 µs per leaf, plus O(levels²) per change. The tree is one byte per
 // lattice point, or up to two for several root squares. Uploads all indices from the first on that differs.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 #include "lod/cbt/bisection.h"
 #include "lod/cbt/bit_tree.h"
-#include "lod/lod.h"
+#include "lod/fresh_frame.h"
 #include "lod/rtin/nested_errors.h"
 #include "lod/screen_bound.h"
 #include "terrain/frustum.h"
@@ -64,19 +64,14 @@ class Cbt : public Lod {
   std::size_t merge(cbt::NodeId);
   void draw(const cbt::Place&, unsigned planes, const Frustum&);
 
-  GroundGrid grid_;
   Options options_;
   rtin::NestedErrors errors_;
   cbt::Bisection bisection_;
   cbt::BitTree tree_;
   double pixels_ = knob().fallback;
-  std::vector<Decision> decisions_;            // of a pass
-  std::vector<cbt::NodeId> touched_;           // nodes that may decide otherwise in the next pass
-  std::vector<std::uint32_t> indices_, last_;  // of this frame and the last
-  std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
-  Frame frame_;
-  bool first_ = true;
+  std::vector<Decision> decisions_;   // of a pass
+  std::vector<cbt::NodeId> touched_;  // nodes that may decide otherwise in the next pass
+  FreshFrame frame_;
 };
 
 }  // namespace terrabench

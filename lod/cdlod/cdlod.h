@@ -47,7 +47,7 @@ class Cdlod : public Lod {
   Cdlod(const Heightfield&, const Options&, Progress&);
   const Frame& update(const View&) override;
   void tune(double pixels) override;
-  // Also reads a measure per 64 × 64 samples of the ground and level.
+  // Also reads one measure per level and 64 × 64 samples.
   void edited(const SampleRect&) override;
   Memory memory() const override;
 

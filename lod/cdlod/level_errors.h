@@ -23,7 +23,7 @@ struct Extremes {
   float drawn = 0;    // error of the level's surface
   float morphed = 0;  // error of a surface between it and the next coarser level's; 0 for the coarsest
   float rise = 0;     // the highest less the lowest sample in a triangle
-  float relief = 0;   // the same in a node; of a level alone, not of a block
+  float relief = 0;   // the same in a node; per level, not per block
 
   void add(const Extremes& other) {
     drawn = std::max(drawn, other.drawn);

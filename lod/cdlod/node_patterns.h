@@ -1,5 +1,5 @@
 // The index patterns of CDLOD: per level one for whole nodes and one for each way in which the ground's
-// border cuts a node, its four quarters one after another, so that a batch draws any neighbouring ones.
+// border cuts a node, its four quarters one after another, so that a batch draws any consecutive ones.
 #pragma once
 
 #include <array>

@@ -3,8 +3,8 @@
 //
 // Level l is drawn from end(l - 1) to end(l); its vertices morph from `from` = end(l - 1) + 0.66·(end(l) -
 // end(l - 1)) on and have arrived at the surface of level l + 1 at `to`. The paper leaves it to the user to
-// choose ranges that are large enough for the nodes; here ranges that are too small are enlarged. Why then
-// nothing can open:
+// choose ranges that are large enough for the nodes; here ranges that are too small are enlarged. Why no
+// seam can open:
 //
 // A quarter of a node of level m > l is drawn only where its box does not reach end(m - 1), so all its points
 // are at end(m - 1) ≥ end(l) or farther. Let a node of level l be drawn beside it. Its box reaches end(l), so

@@ -1,8 +1,5 @@
 #include "lod/rtin/rtin.h"
 
-#include <algorithm>
-
-#include "lod/changed_indices.h"
 #include "lod/screen_bound.h"
 #include "terrain/frustum.h"
 #include "terrain/memory.h"
@@ -34,40 +31,22 @@ std::unique_ptr<Lod> Rtin::build(const LodGround& from, const Parameters& parame
 }
 
 Rtin::Rtin(const Heightfield& ground, const Options& options, Progress& progress)
-    : grid_(grid_of(ground)), options_(options), errors_(grid_, options.exact, progress), batches_(1) {
-  uploads_.reserve(2);
-}
+    : options_(options), errors_(grid_of(ground), options.exact, progress), frame_(ground) {}
 
 void Rtin::edited(const SampleRect& rect) {
-  check_edit(rect, grid_.width, grid_.depth);
+  frame_.edited(rect);
   errors_.update(rect.low, rect.high);
-  if (!first_) append_heights(grid_, rect, edits_);
 }
 
 const Frame& Rtin::update(const View& view) {
   check_view(view);
-  std::swap(indices_, last_);
-  indices_.clear();
+  frame_.begin();
   if (options_.metres > 0) {
     descend_for_all_views();
   } else {
     descend_for(view);
   }
-  const auto size = [](const auto& values) { return static_cast<std::uint32_t>(values.size()); };
-  uploads_.assign(edits_.begin(), edits_.end());
-  edits_.clear();
-  append_changed(indices_, last_, uploads_);
-  if (first_) uploads_.push_back({.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)});
-  first_ = false;
-  batches_[0] = {.index_count = size(indices_)};
-  frame_ = {.grid = grid_,
-            .cell_x = grid_.cell_x,
-            .cell_z = grid_.cell_z,
-            .indices = indices_,
-            .batches = batches_,
-            .uploads = uploads_,
-            .stats = count(batches_, uploads_, 0)};
-  return frame_;
+  return frame_.finish(0);
 }
 
 void Rtin::descend_for_all_views() {
@@ -94,14 +73,13 @@ void Rtin::descend_for(const View& view) {
 void Rtin::draw(const Triangle& t) {
   const rtin::Lattice& lattice = errors_.lattice();
   if (!lattice.over_ground(t)) return;
-  for (const glm::ivec2 corner : {t.a, t.b, t.c}) indices_.push_back(lattice.vertex(corner));
+  for (const glm::ivec2 corner : {t.a, t.b, t.c}) frame_.add_corner(lattice.vertex(corner));
 }
 
 Memory Rtin::memory() const {
   Memory memory = errors_.memory();
   memory.index += heap_bytes(this);
-  memory += payload_memory(indices_, last_);
-  memory += index_memory(batches_, uploads_, edits_);
+  memory += frame_.memory();
   return memory;
 }
 

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "lod/lod.h"
+#include "lod/fresh_frame.h"
 #include "lod/rtin/nested_errors.h"
 
 namespace terrabench {
@@ -46,15 +46,10 @@ class Rtin : public Lod {
   void descend_for_all_views();
   void draw(const rtin::Triangle&);
 
-  GroundGrid grid_;
   Options options_;
   rtin::NestedErrors errors_;
   double pixels_ = knob().fallback;
-  std::vector<std::uint32_t> indices_, last_;  // of this frame and the last
-  std::vector<Batch> batches_;
-  std::vector<DirtyRange> uploads_, edits_;  // edits_: for the next frame
-  Frame frame_;
-  bool first_ = true;
+  FreshFrame frame_;
 };
 
 }  // namespace terrabench

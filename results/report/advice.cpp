@@ -108,8 +108,8 @@ Table advice(std::span<const Ranking> here, std::span<const Answer> elsewhere) {
       "",
       "",
       "Take: the best method, or those that are tied. Next and lead: the best of the others, and by which "
-      "factor it is behind. Reference: on how many reference grounds of this kind, without this one, a "
-      "method to take is best or tied, too; or which method is best there on most.",
+      "factor it is behind. Reference: the number of other reference grounds of this kind on which a "
+      "method to take is best or tied, or the method best on most.",
       {{"Question"}, {"Take"}, {"Next"}, {"Lead"}, {"Reference"}, {"Why"}},
       {}};
   for (const Ranking& ranking : here) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,7 +92,7 @@ struct Bars {
 
 using Block = std::variant<Heading, Paragraph, Facts, Doors, Search, TableBlock, Gallery, Bars>;
 using Document = std::vector<Block>;
-void append(Document& to, Document blocks);
+inline void append(Document& to, Document blocks) { std::ranges::move(blocks, std::back_inserter(to)); }
 
 // `navigation`: to the other pages. The targets of links are taken as they are.
 using Navigation = std::vector<std::pair<std::string, std::vector<Link>>>;  // by the name of a group, or ""

@@ -25,7 +25,7 @@ Doors next_commands();
 // The ids of the runs from which times were taken that cannot be trusted (Provenance::timing_warnings): the
 // machine was busy, or this was no release build.
 std::set<std::string, std::less<>> uncertain_runs(const Store&);
-// Names those from which records of the profile come, with links to them on the same page, or one to the page
+// Names such runs behind the profile's records, with links to them on the same page, or one to the page
 // of runs; nothing if there are none.
 Document busy_warning(const Store&, const JudgedResults&, bool links);
 // Says why the results cannot be trusted; nothing if they can.

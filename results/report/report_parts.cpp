@@ -31,29 +31,22 @@ std::string ranges(const std::vector<std::size_t>& lines) {
   return text;
 }
 
-// Whether a shell takes it as one word.
-bool is_plain(std::string_view name) {
-  return std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("._-").find(static_cast<char>(c)) != std::string_view::npos;
+// Whether it has letters, digits and these characters alone, so that a shell takes it as one word.
+bool is_plain(std::string_view name, std::string_view others) {
+  return std::ranges::all_of(name, [&](unsigned char c) {
+    return std::isalnum(c) != 0 || others.find(static_cast<char>(c)) != others.npos;
   });
 }
 
-// Names for `run` those of an experiment's cases that the records are of, as " 'real-257/fitted'" or, if they
-// only begin alike, " 'real-257/*'"; empty if they do not.
+// The case arguments of `run` that select these records, as " 'real-257/fitted'" or, if they only begin
+// alike, " 'real-257/*'"; empty if they do not.
 std::string cases_of(const std::vector<const Record*>& records) {
   const std::string& first = records.front()->case_name;
-  const auto plain = [](std::string_view name) {
-    return std::ranges::all_of(name, [](unsigned char c) {
-      return std::isalnum(c) != 0 ||
-             std::string_view("._-/=%").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-  };
   const auto all = [&](auto holds) {
     return std::ranges::all_of(records,
                                [&](const Record* r) { return holds(std::string_view(r->case_name)); });
   };
-  if (!plain(first)) return "";
+  if (!is_plain(first, "._-/=%")) return "";
   if (all([&](std::string_view name) { return name == first; })) return fmt::format(" '{}'", first);
   const std::string ground = first.substr(0, first.find('/')) + "/";
   if (ground.size() > first.size()) return "";
@@ -67,7 +60,7 @@ std::string command_for(const std::vector<const Record*>& records, const Store& 
   std::string command = "terrabench run", profile = records.front()->profile;
   std::set<std::string_view> seen;
   for (const Record* const record : records) {
-    if (!is_plain(record->experiment) || !is_plain(record->profile)) return "";
+    if (!is_plain(record->experiment, "._-") || !is_plain(record->profile, "")) return "";
     const bool is_file = record->terrain.find_first_of("./:") != std::string::npos;  // not one of ours
     if (!record->overrides.empty() || record->seed != 1 || is_file) return "";
     if (seen.insert(record->experiment).second) command += " " + record->experiment;

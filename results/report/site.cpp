@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "terrain/files.h"
@@ -56,8 +55,6 @@ std::string file_of(std::string_view stem, const PageForm& form) {
 }
 
 }  // namespace
-
-void append(Document& to, Document blocks) { std::ranges::move(blocks, std::back_inserter(to)); }
 
 void Site::add(std::string stem, std::string group, std::string label, Document document) {
   const auto at = stem.empty() ? pages_.begin() : pages_.end();

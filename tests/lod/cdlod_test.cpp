@@ -72,7 +72,7 @@ TEST_P(CdlodBothWays, RangesTooSmallForTheNodesOpenNoSeam) {
   EXPECT_GE(levels, 3U);
 }
 
-// The same nodes do open where vertices morph earlier: what is enlarged is what closes them.
+// The same nodes open seams where vertices morph earlier: the enlarged ranges close them.
 TEST(Cdlod, MorphingTooEarlyOpensSeams) {
   const Heightfield field = hilly(300, 280, 1, 3);
   const View view = views(camera_path("fly"), field)[100];
