@@ -1,8 +1,5 @@
 #include "representations/tin/delaunay.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -12,21 +9,16 @@
 namespace terrabench::tin {
 namespace {
 
-// The triangle's corners, beginning with number `first`.
-std::array<std::uint32_t, 3> corners_from(const Triangle& t, int first) {
-  const auto at = [&](int k) { return t.vertex[static_cast<std::size_t>((first + k) % 3)]; };
-  return {at(0), at(1), at(2)};
-}
-
-// 0 … n - 1 by ascending buckets, of which there are `buckets`, and in each by ascending keys. O(n) for small
-// buckets.
+// The indices by ascending buckets, of which there are `buckets`, and in each by ascending keys. O(n) for
+// small buckets.
 template <class Bucket, class Key>
-std::vector<std::uint32_t> sorted(std::size_t n, std::size_t buckets, const Bucket& bucket, const Key& key) {
-  std::vector<std::uint32_t> end(buckets + 1), order(n);
-  for (std::uint32_t k = 0; k < n; ++k) ++end[bucket(k) + 1];
+std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> order, std::size_t buckets, const Bucket& bucket,
+                                  const Key& key) {
+  std::vector<std::uint32_t> end(buckets + 1);
+  for (const std::uint32_t k : order) ++end[bucket(k) + 1];
   std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(n);
-  for (std::uint32_t k = 0; k < n; ++k) keyed[end[bucket(k)]++] = {key(k), k};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(order.size());
+  for (const std::uint32_t k : order) keyed[end[bucket(k)]++] = {key(k), k};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets), [&](const auto& range) {
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
       const std::uint32_t first = b == 0 ? 0 : end[b - 1];
@@ -37,9 +29,25 @@ std::vector<std::uint32_t> sorted(std::size_t n, std::size_t buckets, const Buck
   return order;
 }
 
-std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> place(order.size());
-  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+// 0 … n - 1 but for those that are free.
+std::vector<std::uint32_t> used(std::size_t n, const std::vector<std::uint32_t>& free) {
+  std::vector<bool> is_free(n);
+  for (const std::uint32_t k : free) is_free[k] = true;
+  std::vector<std::uint32_t> all;
+  all.reserve(n - free.size());
+  for (std::uint32_t k = 0; k < n; ++k) {
+    if (!is_free[k]) all.push_back(k);
+  }
+  return all;
+}
+
+// The place of each of n indices in the order.
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order, std::size_t n) {
+  std::vector<std::uint32_t> place(n);
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(order.size()), 4096),
+                    [&](const auto& range) {
+                      for (std::uint32_t k = range.begin(); k < range.end(); ++k) place[order[k]] = k;
+                    });
   return place;
 }
 
@@ -58,31 +66,29 @@ void Delaunay::reserve(std::size_t vertices) {
 
 Delaunay::Former Delaunay::put_in_order() {
   std::vector<std::uint32_t> former = sorted(
-      vertices_.size(), std::size_t{1} << 16, [&](std::uint32_t v) { return vertices_[v].j; },
-      [&](std::uint32_t v) { return vertices_[v].i; });
-  const std::vector<std::uint32_t> vertex_now = inverse(former);
-  tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t k) {
-    Triangle& t = triangles_[k];
+      used(vertices_.size(), free_vertices_), std::size_t{1} << 16,
+      [&](std::uint32_t v) { return vertices_[v].j; }, [&](std::uint32_t v) { return vertices_[v].i; });
+  const std::vector<std::uint32_t> vertex_now = inverse(former, vertices_.size());
+  std::vector<std::uint32_t> order = used(triangles_.size(), free_triangles_);
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
+    Triangle& t = triangles_[order[k]];
     for (std::uint32_t& v : t.vertex) v = vertex_now[v];
     const auto first = std::ranges::min_element(t.vertex) - t.vertex.begin();
     std::rotate(t.vertex.begin(), t.vertex.begin() + first, t.vertex.end());
     std::rotate(t.neighbour.begin(), t.neighbour.begin() + first, t.neighbour.end());
   });
-  std::vector<std::uint32_t> order = sorted(
-      triangles_.size(), vertices_.size(), [&](std::uint32_t t) { return triangles_[t].vertex[0]; },
+  order = sorted(
+      std::move(order), former.size(), [&](std::uint32_t t) { return triangles_[t].vertex[0]; },
       [&](std::uint32_t t) { return triangles_[t].vertex[1]; });
-  const std::vector<std::uint32_t> triangle_now = inverse(order);
-  std::vector<Sample> vertices;
-  vertices.reserve(former.size());
-  for (const std::uint32_t v : former) vertices.push_back(vertices_[v]);
+  const std::vector<std::uint32_t> triangle_now = inverse(order, triangles_.size());
   std::vector<Triangle> triangles(order.size());
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
     triangles[k] = triangles_[order[k]];
     for (std::uint32_t& n : triangles[k].neighbour) n = n == kNone ? kNone : triangle_now[n];
   });
-  vertices_ = std::move(vertices);
+  vertices_ = gathered(vertices_, former);
   triangles_ = std::move(triangles);
-  suspects_ = std::vector<std::uint32_t>();
+  cavity_ = {};
   return {std::move(former), std::move(order)};
 }
 
@@ -134,111 +140,103 @@ void Delaunay::replace(std::uint32_t triangle, std::uint32_t neighbour, std::uin
   neighbours[static_cast<std::size_t>(place_of(neighbours, neighbour))] = by;
 }
 
+// By depth first, so that the ring comes in order: the triangles without vertices between them form a tree.
+// False if one of them has a corner outside the tile.
+bool Delaunay::find_cavity(const Tile& tile, Sample p, std::uint32_t first, Cavity& c) const {
+  if (!all_in(tile, triangles_[first])) return false;
+  c.triangles.assign(1, first);
+  c.ring.clear();
+  c.open.assign({{first, 2}, {first, 1}, {first, 0}});
+  std::size_t border = 0;  // place in the ring after the edge that holds p
+  while (!c.open.empty()) {
+    const auto [at, edge] = c.open.back();
+    c.open.pop_back();
+    const Triangle& t = triangles_[at];
+    const std::uint32_t beyond = t.neighbour[static_cast<std::size_t>(edge)];
+    const int next = (edge + 1) % 3;
+    if (beyond != kNone) {
+      const Triangle& other = triangles_[beyond];
+      if (in_conflict(vertex(other, 0), vertex(other, 1), vertex(other, 2), p)) {
+        if (!all_in(tile, other)) return false;
+        const int back = place_of(other.neighbour, at);
+        c.triangles.push_back(beyond);
+        c.open.push_back({beyond, (back + 2) % 3});
+        c.open.push_back({beyond, (back + 1) % 3});
+        continue;
+      }
+    }
+    c.ring.push_back({t.vertex[static_cast<std::size_t>(next)], beyond});
+    if (beyond == kNone && twice_area(vertex(t, next), vertex(t, (edge + 2) % 3), p) == 0)
+      border = c.ring.size();
+  }
+  c.at_border = border != 0;
+  std::rotate(c.ring.begin(), c.ring.begin() + static_cast<std::ptrdiff_t>(border), c.ring.end());
+  return true;
+}
+
+// A triangle (p, from, to) for each edge of the ring but one that holds p: one or two more than before.
+template <class NewTriangle>
+void Delaunay::fan_out(Cavity& c, std::uint32_t p, const NewTriangle& new_triangle) {
+  const std::size_t count = c.ring.size() - (c.at_border ? 1 : 0);
+  while (c.triangles.size() < count) c.triangles.push_back(new_triangle());
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [from, beyond] = c.ring[k];
+    const std::uint32_t to = c.ring[(k + 1) % c.ring.size()].from, at = c.triangles[k];
+    const std::uint32_t next = k + 1 < count ? c.triangles[k + 1] : c.at_border ? kNone : c.triangles.front();
+    const std::uint32_t last = k > 0 ? c.triangles[k - 1] : c.at_border ? kNone : c.triangles.back();
+    triangles_[at] = {{p, from, to}, {beyond, next, last}};
+    if (beyond == kNone) continue;
+    Triangle& other = triangles_[beyond];
+    for (std::size_t m = 0; m < 3; ++m) {
+      if (other.vertex[m] != from && other.vertex[m] != to) other.neighbour[m] = at;
+    }
+  }
+}
+
 std::uint32_t Delaunay::insert(Sample p, std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
   if (const std::uint32_t there = vertex_at(p, triangle); there != kNone) return there;
-  const Triangle t = triangles_[triangle];
-  int edge = 3;
-  for (int k = 0; k < 3; ++k) {
-    const Sample from = vertex(t, (k + 1) % 3), to = vertex(t, (k + 2) % 3);
-    if (twice_area(from, to, p) == 0) edge = k;
-  }
+  find_cavity(Tile{}, p, triangle, cavity_);
   const std::uint32_t added = new_vertex(p);
-  suspects_.clear();
-  if (edge == 3) {
-    split(triangle, added);
-  } else {
-    split_edge(triangle, edge, added);
-  }
-  flip_from(changed);
+  fan_out(cavity_, added, [&] { return new_triangle(); });
+  changed.insert(changed.end(), cavity_.triangles.begin(), cavity_.triangles.end());
   return added;
 }
 
-// (a, b, c) becomes (p, b, c), (p, c, a) and (p, a, b).
-void Delaunay::split(std::uint32_t first, std::uint32_t p) {
-  const auto [a, b, c] = triangles_[first].vertex;
-  const auto [beyond_a, beyond_b, beyond_c] = triangles_[first].neighbour;
-  const std::uint32_t second = new_triangle(), third = new_triangle();
-  triangles_[first] = {{p, b, c}, {beyond_a, second, third}};
-  triangles_[second] = {{p, c, a}, {beyond_b, third, first}};
-  triangles_[third] = {{p, a, b}, {beyond_c, first, second}};
-  replace(beyond_b, first, second);
-  replace(beyond_c, first, third);
-  suspects_.insert(suspects_.end(), {first, second, third});
-}
-
-// p lies on the edge bc of (a, b, c), which becomes (p, c, a) and (p, a, b); (q, c, b) on its other side, if
-// there is one, becomes (p, q, c) and (p, b, q).
-void Delaunay::split_edge(std::uint32_t near, int edge, std::uint32_t p) {
-  const auto [a, b, c] = corners_from(triangles_[near], edge);
-  const auto near_side = [&](int k) {
-    return triangles_[near].neighbour[static_cast<std::size_t>((edge + k) % 3)];
+std::uint32_t Delaunay::insert_in(const Tile& tile, Sample p, std::uint32_t triangle, Workspace& work,
+                                  std::vector<std::uint32_t>& changed) {
+  if (!find_cavity(tile, p, triangle, work.cavity)) return kNone;
+  if (const std::uint32_t there = vertex_at(p, triangle); there != kNone) return there;
+  const auto take = [](std::vector<std::uint32_t>& free) {
+    const std::uint32_t taken = free.back();
+    free.pop_back();
+    return taken;
   };
-  const std::uint32_t far = near_side(0), beyond_b = near_side(1), beyond_c = near_side(2);
-  const std::uint32_t near_new = new_triangle(), far_new = far == kNone ? kNone : new_triangle();
-  triangles_[near] = {{p, c, a}, {beyond_b, near_new, far}};
-  triangles_[near_new] = {{p, a, b}, {beyond_c, far_new, near}};
-  replace(beyond_c, near, near_new);
-  suspects_.insert(suspects_.end(), {near, near_new});
-  if (far == kNone) return;
-  const int q_at = place_of(triangles_[far].neighbour, near);
-  const std::uint32_t q = triangles_[far].vertex[static_cast<std::size_t>(q_at)];
-  const auto far_side = [&](int k) {
-    return triangles_[far].neighbour[static_cast<std::size_t>((q_at + k) % 3)];
-  };
-  const std::uint32_t beyond_far_c = far_side(1), beyond_far_b = far_side(2);
-  // (q, c, b): opposite c lies edge bq, opposite b edge qc.
-  triangles_[far] = {{p, q, c}, {beyond_far_b, near, far_new}};
-  triangles_[far_new] = {{p, b, q}, {beyond_far_c, far, near_new}};
-  replace(beyond_far_c, far, far_new);
-  suspects_.insert(suspects_.end(), {far, far_new});
+  const std::uint32_t added = take(work.vertices);
+  vertices_[added] = p;
+  fan_out(work.cavity, added, [&] { return take(work.triangles); });
+  changed.insert(changed.end(), work.cavity.triangles.begin(), work.cavity.triangles.end());
+  return added;
 }
 
-bool Delaunay::should_flip(const Triangle& t, Sample q) const {
-  const Sample p = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
-  const int side = in_circle(p, b, c, q);
-  return side != 0 ? side > 0 : prefers(p, q, b, c);
-}
-
-// Each suspect has the new vertex as its corner 0.
-void Delaunay::flip_from(std::vector<std::uint32_t>& changed) {
-  while (!suspects_.empty()) {
-    const std::uint32_t near = suspects_.back();
-    const Triangle t = triangles_[near];
-    const std::uint32_t far = t.neighbour[0];
-    const Triangle other = far == kNone ? Triangle{} : triangles_[far];
-    const int q_at = far == kNone ? 0 : place_of(other.neighbour, near);
-    if (far == kNone || !should_flip(t, vertex(other, q_at))) {
-      suspects_.pop_back();
-      changed.push_back(near);
-      continue;
-    }
-    // (p, b, c) and (q, c, b) become (p, b, q) and (p, q, c).
-    const auto [p, b, c] = t.vertex;
-    const std::uint32_t q = other.vertex[static_cast<std::size_t>(q_at)];
-    const std::uint32_t beyond_bq = other.neighbour[static_cast<std::size_t>((q_at + 1) % 3)];
-    const std::uint32_t beyond_qc = other.neighbour[static_cast<std::size_t>((q_at + 2) % 3)];
-    const std::uint32_t beyond_cp = t.neighbour[1], beyond_pb = t.neighbour[2];
-    triangles_[near] = {{p, b, q}, {beyond_bq, far, beyond_pb}};
-    triangles_[far] = {{p, q, c}, {beyond_qc, beyond_cp, near}};
-    replace(beyond_bq, far, near);
-    replace(beyond_cp, near, far);
-    suspects_.push_back(far);
+Delaunay::Workspace Delaunay::make_workspace(std::size_t vertices) {
+  Workspace work;
+  while (work.vertices.size() < vertices) work.vertices.push_back(new_vertex({}));
+  while (work.triangles.size() < 2 * vertices) {
+    work.triangles.push_back(new_triangle());
+    triangles_[work.triangles.back()].vertex[0] = kNone;
   }
+  return work;
+}
+
+void Delaunay::take_back(Workspace&& work) {
+  free_vertices_.insert(free_vertices_.end(), work.vertices.begin(), work.vertices.end());
+  free_triangles_.insert(free_triangles_.end(), work.triangles.begin(), work.triangles.end());
 }
 
 void Delaunay::append_conflicts(Sample p, std::uint32_t triangle, std::vector<std::uint32_t>& to) const {
-  const std::size_t first = to.size();
-  to.push_back(triangle);
-  for (std::size_t at = first; at < to.size(); ++at) {
-    for (const std::uint32_t beyond : triangles_[to[at]].neighbour) {
-      if (beyond == kNone ||
-          std::find(to.begin() + static_cast<std::ptrdiff_t>(first), to.end(), beyond) != to.end()) {
-        continue;
-      }
-      const Triangle& t = triangles_[beyond];
-      if (in_conflict(vertex(t, 0), vertex(t, 1), vertex(t, 2), p)) to.push_back(beyond);
-    }
-  }
+  Cavity cavity;
+  find_cavity(Tile{}, p, triangle, cavity);
+  to.insert(to.end(), cavity.triangles.begin(), cavity.triangles.end());
 }
 
 void Delaunay::make_room() {

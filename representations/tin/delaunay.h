@@ -1,10 +1,13 @@
-// The Delaunay triangulation of lattice points in a rectangle, built point by point: the triangle that holds
-// a point is split, and edges are flipped until no circumcircle holds a vertex (Lawson 1977).
+// The Delaunay triangulation of lattice points in a rectangle, built point by point: the triangles whose
+// circumcircles hold a point are replaced by a fan around it (Bowyer 1981, Watson 1981).
 //
 // All tests are exact, in whole numbers. Of four points on one circle, which a lattice has everywhere, the
 // diagonal takes the one that comes first in rows from north to south: so the triangulation depends on the
 // set of points alone, not on their order, and a file needs no connectivity.
 #pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
 #include <bit>
@@ -33,6 +36,16 @@ constexpr std::int64_t twice_area(Sample a, Sample b, Sample c) {
 struct Triangle {
   std::array<std::uint32_t, 3> vertex;     // twice_area() > 0
   std::array<std::uint32_t, 3> neighbour;  // across the edge opposite the vertex; kNone beyond the rectangle
+};
+
+// The samples of a square, all others too if `side` is 0.
+struct Tile {
+  Sample north_west{0, 0};
+  int side = 0;
+  bool holds(Sample s) const {
+    return side == 0 || (static_cast<unsigned>(s.i - north_west.i) < static_cast<unsigned>(side) &&
+                         static_cast<unsigned>(s.j - north_west.j) < static_cast<unsigned>(side));
+  }
 };
 
 // GCC takes a function that only prefetches for one without effects, and drops calls of it.
@@ -64,6 +77,42 @@ class Delaunay {
   std::uint32_t insert(Sample, std::uint32_t triangle, std::vector<std::uint32_t>& changed);
   // Appends the triangles that insert() would change: those with the sample in their circumcircle.
   void append_conflicts(Sample, std::uint32_t triangle, std::vector<std::uint32_t>& to) const;
+
+ private:
+  struct RingEdge {  // from a vertex to that of the next edge in the ring
+    std::uint32_t from, beyond;
+  };
+  // What a new vertex replaces.
+  struct Cavity {
+    std::vector<std::uint32_t> triangles;
+    std::vector<RingEdge> ring;  // around them, as they turn from the first axis to the second
+    bool at_border = false;      // the last edge holds the new vertex
+    struct Side {
+      std::uint32_t triangle;
+      int edge;
+    };
+    std::vector<Side> open;
+  };
+
+ public:
+  // Free indices of vertices and triangles, and what one thread works with.
+  struct Workspace {
+    std::vector<std::uint32_t> vertices, triangles;
+    Cavity cavity;
+  };
+  // Adds free elements, for insert_in().
+  Workspace make_workspace(std::size_t vertices);
+  // Those that are left are free for insert() and make_workspace().
+  void take_back(Workspace&&);
+  // As insert(), by several threads at once, each with a workspace and a tile of its own. Changes nothing and
+  // returns kNone unless all triangles to be changed have all corners in the tile. Of others only those with
+  // two corners in it, which lie beyond an edge of its own, get a new neighbour there: no two threads touch
+  // the same. The workspace has one vertex and two triangles at least.
+  std::uint32_t insert_in(const Tile&, Sample, std::uint32_t triangle, Workspace&,
+                          std::vector<std::uint32_t>& changed);
+  bool all_in(const Tile& tile, const Triangle& t) const {
+    return tile.holds(vertex(t, 0)) && tile.holds(vertex(t, 1)) && tile.holds(vertex(t, 2));
+  }
 
   // Appends the triangles around a vertex, one of which is given, as they turn from the first axis to the
   // second; at the border from one side to the other.
@@ -97,27 +146,25 @@ class Delaunay {
     std::vector<std::uint32_t> vertices, triangles;
   };
   // Numbers vertices by rows and triangles by their corners, the first vertex first, so that the same
-  // vertices give the same arrays, without slack. O(n log n) at worst.
+  // vertices give the same arrays, without slack and free elements. O(n log n) at worst.
   Former put_in_order();
 
  private:
-  struct RingEdge;
   std::uint32_t new_vertex(Sample);
   std::uint32_t new_triangle();
   void fill(std::uint32_t triangle, const std::array<RingEdge, 3>& ring);
   bool is_ear(const std::vector<RingEdge>& ring, std::size_t first) const;
   std::vector<Move> free_and_last(std::vector<std::uint32_t>& free, std::size_t size) const;
   void renumber(const Move&, std::uint32_t triangle);
-  void split(std::uint32_t triangle, std::uint32_t vertex);
-  void split_edge(std::uint32_t triangle, int edge, std::uint32_t vertex);
-  void flip_from(std::vector<std::uint32_t>& changed);
-  bool should_flip(const Triangle&, Sample opposite) const;
+  bool find_cavity(const Tile&, Sample, std::uint32_t triangle, Cavity&) const;
+  template <class NewTriangle>
+  void fan_out(Cavity&, std::uint32_t vertex, const NewTriangle&);
   void replace(std::uint32_t triangle, std::uint32_t neighbour, std::uint32_t by);
 
   std::vector<Sample> vertices_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> suspects_;  // triangles whose edge opposite the new vertex is to be tested
   std::vector<std::uint32_t> free_vertices_, free_triangles_;
+  Cavity cavity_;  // of insert()
 };
 
 template <class Find>
@@ -130,8 +177,18 @@ std::vector<Delaunay::Move> Delaunay::compact_vertices(const Find& find) {
   }
   vertices_.resize(vertices_.size() - free_vertices_.size());
   free_vertices_ = std::vector<std::uint32_t>();
-  suspects_ = std::vector<std::uint32_t>();
+  cavity_ = {};
   return moves;
+}
+
+// The elements with these indices, one after another.
+template <class T>
+std::vector<T> gathered(const std::vector<T>& from, const std::vector<std::uint32_t>& indices) {
+  std::vector<T> to(indices.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to.size(), 4096), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) to[k] = from[indices[k]];
+  });
+  return to;
 }
 
 // Calls visit(k) once for each k below n, coarse to fine: row by row each vertex would change many triangles.

@@ -25,11 +25,6 @@ void Delaunay::append_star(std::uint32_t v, std::uint32_t triangle, std::vector<
   } while (at != kNone && at != first);
 }
 
-// A vertex of the polygon around one that is taken out, and the triangle beyond the edge to the next.
-struct Delaunay::RingEdge {
-  std::uint32_t from, beyond;
-};
-
 // The polygon's triangles are those without a conflict: such an ear is cut off until three edges are left.
 void Delaunay::remove(std::uint32_t v, std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
   std::vector<std::uint32_t> star;

@@ -1,10 +1,10 @@
 #include "representations/tin/greedy_insertion.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -70,6 +70,8 @@ class Insertion {
   static constexpr float kFall = 0.5F;      // of the limit from pass to pass
   static constexpr std::size_t kAhead = 8;  // triangles, of prefetching
   static constexpr float kListed = -1;      // the error of a triangle that waits for scan()
+  static constexpr unsigned kTilesPerSide = 8;
+  static constexpr std::size_t kForTiles = std::size_t{1} << 17;  // due triangles
 
   float height(Sample s) const { return field_.at(s.i, s.j); }
   const float* sample(Sample s) const {
@@ -119,7 +121,8 @@ class Insertion {
 
   void add(Sample s, std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
     const std::uint32_t vertex = surface_.insert(s, triangle, changed);
-    if (vertex == heights_.size()) heights_.push_back(height(s));
+    heights_.resize(surface_.vertices().size());
+    heights_[vertex] = height(s);
   }
 
   float largest_candidate() const {
@@ -147,24 +150,87 @@ class Insertion {
 
   // Inserts the worst sample of each triangle that has not been changed since `due` was listed. Returns what
   // changed.
-  std::vector<std::uint32_t> insert(const std::vector<Due>& due) {
+  std::vector<std::uint32_t> insert(std::vector<Due> due) {
     std::vector<std::uint32_t> changed;
-    std::size_t counted = 0;
+    if (due.size() >= kForTiles) due = insert_by_tiles(due, changed);
     for (std::size_t k = 0; k < due.size(); ++k) {
       prefetch_for_insert(due, k);
       const std::uint32_t t = due[k].triangle;
       if (candidates_[t].error == kListed) continue;
+      const std::size_t before = changed.size();
       add(candidates_[t].at, t, changed);
       candidates_.resize(surface_.triangles().size());
-      for (std::size_t c = counted; c < changed.size(); ++c) {
-        float& error = candidates_[changed[c]].error;
-        if (error == kListed) continue;
-        error = kListed;
-        changed[counted++] = changed[c];
-      }
-      changed.resize(counted);
+      list(changed, before);
     }
     return changed;
+  }
+
+  // Marks the triangles from number `first` on, and drops those that were.
+  void list(std::vector<std::uint32_t>& triangles, std::size_t first) {
+    std::size_t kept = first;
+    for (std::size_t c = first; c < triangles.size(); ++c) {
+      float& error = candidates_[triangles[c]].error;
+      if (error == kListed) continue;
+      error = kListed;
+      triangles[kept++] = triangles[c];
+    }
+    triangles.resize(kept);
+  }
+
+  struct TileWork {
+    Tile tile;
+    std::span<const Due> due;
+    Delaunay::Workspace work;
+    std::vector<std::uint32_t> changed;
+    std::vector<Due> left;
+  };
+
+  // All tiles at once; returns what would have changed triangles across the tiles' borders. The tiles depend
+  // on the ground alone.
+  std::vector<Due> insert_by_tiles(std::span<const Due> due, std::vector<std::uint32_t>& changed) {
+    const auto sides = static_cast<unsigned>(std::max(field_.width, field_.depth));
+    const unsigned side = std::bit_ceil(sides) / kTilesPerSide, shift = 2 * std::bit_width(side - 1);
+    std::vector<TileWork> tiles;
+    while (!due.empty()) {
+      const std::uint32_t tile = due.front().place >> shift;
+      const auto end = std::ranges::find_if(due, [&](const Due& d) { return d.place >> shift != tile; });
+      const auto count = static_cast<std::size_t>(end - due.begin());
+      const Sample at = candidates_[due.front().triangle].at;
+      const auto corner = [&](std::uint16_t c) { return static_cast<std::uint16_t>(c / side * side); };
+      tiles.push_back({{{corner(at.i), corner(at.j)}, static_cast<int>(side)},
+                       due.first(count),
+                       surface_.make_workspace(count),
+                       {},
+                       {}});
+      due = due.subspan(count);
+    }
+    heights_.resize(surface_.vertices().size());
+    candidates_.resize(surface_.triangles().size());
+    tbb::parallel_for_each(tiles, [&](TileWork& work) { insert_in(work); });
+    std::vector<Due> left;
+    for (TileWork& work : tiles) {
+      surface_.take_back(std::move(work.work));
+      changed.insert(changed.end(), work.changed.begin(), work.changed.end());
+      left.insert(left.end(), work.left.begin(), work.left.end());
+    }
+    return left;
+  }
+
+  void insert_in(TileWork& work) {
+    for (std::size_t k = 0; k < work.due.size(); ++k) {
+      prefetch_for_tile(work, k);
+      const std::uint32_t t = work.due[k].triangle;
+      const auto [error, at] = candidates_[t];
+      if (error == kListed) continue;
+      const std::size_t before = work.changed.size();
+      const std::uint32_t vertex = surface_.insert_in(work.tile, at, t, work.work, work.changed);
+      if (vertex == Delaunay::kNone) {
+        work.left.push_back(work.due[k]);
+        continue;
+      }
+      heights_[vertex] = height(at);
+      list(work.changed, before);
+    }
   }
 
   void scan(const std::vector<std::uint32_t>& triangles) {
@@ -194,6 +260,23 @@ class Insertion {
       for (const std::uint32_t beyond : t.neighbour) {
         if (beyond != Delaunay::kNone) prefetch(&surface_.triangles()[beyond]);
       }
+    }
+  }
+
+  // As the other threads change their triangles, only those are read that are wholly in the tile.
+  [[gnu::always_inline]] void prefetch_for_tile(const TileWork& work, std::size_t k) const {
+    if (k + 3 * kAhead >= work.due.size()) return;
+    const auto due = [&](std::size_t ahead) { return work.due[k + ahead * kAhead].triangle; };
+    prefetch(&surface_.triangles()[due(3)]);
+    prefetch(&candidates_[due(3)]);
+    prefetch(sample(candidates_[due(2)].at));
+    for (const std::uint32_t v : surface_.triangles()[due(2)].vertex) prefetch(&surface_.vertices()[v]);
+    const Triangle& t = surface_.triangles()[due(1)];
+    if (!surface_.all_in(work.tile, t)) return;
+    for (const std::uint32_t n : t.neighbour) {
+      if (n == Delaunay::kNone) continue;
+      prefetch(&surface_.triangles()[n]);
+      prefetch(&candidates_[n]);
     }
   }
 
@@ -231,15 +314,8 @@ class Insertion {
 
 void put_in_order(Approximation& a) {
   const auto [vertices, triangles] = a.surface.put_in_order();
-  std::vector<float> heights;
-  heights.reserve(vertices.size());
-  for (const std::uint32_t before : vertices) heights.push_back(a.heights[before]);
-  a.heights = std::move(heights);
-  if (a.holes.empty()) return;
-  std::vector<std::uint8_t> holes;
-  holes.reserve(triangles.size());
-  for (const std::uint32_t before : triangles) holes.push_back(a.holes[before]);
-  a.holes = std::move(holes);
+  a.heights = gathered(a.heights, vertices);
+  if (!a.holes.empty()) a.holes = gathered(a.holes, triangles);
 }
 
 Approximation greedy_insertion(const Heightfield& field, float largest_error, Progress& progress) {

@@ -1,26 +1,28 @@
 #include "representations/tin/locator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace terrabench::tin {
 namespace {
 
-// From one triangle to the next across an edge that has the point on its other side.
-std::uint32_t walk(const Delaunay& surface, std::uint32_t at, double i, double j) {
+// The neighbour across an edge that has the point on its other side; the triangle itself if it has none.
+std::uint32_t step(const Delaunay& surface, std::uint32_t at, Locator::Point p) {
+  const Triangle& t = surface.triangles()[at];
+  const auto [a, b, c] = surface.corners(t);
+  if (twice_area_to(b, c, p) < 0) return t.neighbour[0];
+  if (twice_area_to(c, a, p) < 0) return t.neighbour[1];
+  if (twice_area_to(a, b, p) < 0) return t.neighbour[2];
+  return at;
+}
+
+std::uint32_t walk(const Delaunay& surface, std::uint32_t at, Locator::Point p) {
   for (;;) {
-    const Triangle& t = surface.triangles()[at];
-    const Sample a = surface.vertex(t, 0), b = surface.vertex(t, 1), c = surface.vertex(t, 2);
-    std::size_t beyond = 3;
-    if (twice_area_to(b, c, i, j) < 0) {
-      beyond = 0;
-    } else if (twice_area_to(c, a, i, j) < 0) {
-      beyond = 1;
-    } else if (twice_area_to(a, b, i, j) < 0) {
-      beyond = 2;
-    }
-    if (beyond == 3) return at;
-    at = t.neighbour[beyond];
+    const std::uint32_t next = step(surface, at, p);
+    if (next == at) return at;
+    at = next;
   }
 }
 
@@ -39,7 +41,7 @@ Locator::Locator(const Delaunay& surface, int width, int depth) : triangles_(sur
     // To and fro, so that each walk begins beside its end.
     for (int k = 0; k < columns_; ++k) {
       const int column = row % 2 == 0 ? k : columns_ - 1 - k;
-      near = walk(surface, near, middle_i(column), middle_j(row));
+      near = walk(surface, near, {middle_i(column), middle_j(row)});
       start_[static_cast<std::size_t>(row) * columns_ + column] = near;
     }
   }
@@ -59,9 +61,9 @@ void Locator::update(const Delaunay& surface, std::span<const std::uint32_t> cha
     const int last_row = std::min(rows_ - 1, static_cast<int>((south + 1) * per_j_));
     for (int row = std::max(0, static_cast<int>(north * per_j_) - 1); row <= last_row; ++row) {
       for (int column = std::max(0, static_cast<int>(west * per_i_) - 1); column <= last_column; ++column) {
-        const double i = middle_i(column), j = middle_j(row);
-        if (twice_area_to(a, b, i, j) >= 0 && twice_area_to(b, c, i, j) >= 0 &&
-            twice_area_to(c, a, i, j) >= 0) {
+        const Point middle{middle_i(column), middle_j(row)};
+        if (twice_area_to(a, b, middle) >= 0 && twice_area_to(b, c, middle) >= 0 &&
+            twice_area_to(c, a, middle) >= 0) {
           start_[static_cast<std::size_t>(row) * columns_ + column] = t;
         }
       }
@@ -69,10 +71,38 @@ void Locator::update(const Delaunay& surface, std::span<const std::uint32_t> cha
   }
 }
 
-std::uint32_t Locator::find(const Delaunay& surface, double i, double j) const {
-  const int column = std::min(columns_ - 1, static_cast<int>(i * per_i_));
-  const int row = std::min(rows_ - 1, static_cast<int>(j * per_j_));
-  return walk(surface, start_[static_cast<std::size_t>(row) * columns_ + column], i, j);
+const std::uint32_t& Locator::start(Point p) const {
+  const int column = std::min(columns_ - 1, static_cast<int>(p.i * per_i_));
+  const int row = std::min(rows_ - 1, static_cast<int>(p.j * per_j_));
+  return start_[static_cast<std::size_t>(row) * columns_ + column];
+}
+
+std::uint32_t Locator::find(const Delaunay& surface, Point p) const { return walk(surface, start(p), p); }
+
+void Locator::find(const Delaunay& surface, std::span<const Point> points,
+                   std::span<std::uint32_t> triangles) const {
+  for (const Point p : points) prefetch(&start(p));
+  std::array<std::uint32_t, kAtOnce> walking;
+  std::iota(walking.begin(), walking.end(), 0U);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    triangles[k] = start(points[k]);
+    prefetch(&surface.triangles()[triangles[k]]);
+  }
+  for (std::size_t left = points.size(); left > 0;) {
+    for (std::size_t w = 0; w < left; ++w) {
+      for (const std::uint32_t v : surface.triangles()[triangles[walking[w]]].vertex)
+        prefetch(&surface.vertices()[v]);
+    }
+    std::size_t going = 0;
+    for (std::size_t w = 0; w < left; ++w) {
+      const std::uint32_t k = walking[w], next = step(surface, triangles[k], points[k]);
+      if (next == triangles[k]) continue;
+      triangles[k] = next;
+      prefetch(&surface.triangles()[next]);
+      walking[going++] = k;
+    }
+    left = going;
+  }
 }
 
 }  // namespace terrabench::tin

@@ -50,7 +50,7 @@ Reinsertion::Reinsertion(Approximation& ground, Locator& locator, int width, int
 
 float& Reinsertion::known(Sample s) {
   if (!window_.knows(s)) {
-    near_ = changing_ ? surface_.locate(s, near_) : locator_.find(surface_, s.i, s.j);
+    near_ = changing_ ? surface_.locate(s, near_) : locator_.find(surface_, s);
     keep(near_);  // no sample of a changed triangle is unknown
   }
   return window_.at(s);
@@ -90,7 +90,7 @@ bool Reinsertion::finish() {
   std::ranges::sort(set_, before);
   set_.erase(std::unique(set_.begin(), set_.end()), set_.end());
   changing_ = true;
-  near_ = locator_.find(surface_, set_[0].i, set_[0].j);
+  near_ = locator_.find(surface_, set_[0]);
   for (const Sample s : set_) {
     around(s, [&](Sample beside) { take_out(beside, beside == s); });
   }
@@ -230,7 +230,7 @@ void Reinsertion::compact() {
   std::erase_if(touched, [&](std::uint32_t t) { return t >= surface_.triangles().size(); });
   std::ranges::sort(touched);
   locator_.update(surface_, touched, width_, depth_);
-  const auto find = [&](Sample s) { return locator_.find(surface_, s.i, s.j); };
+  const auto find = [&](Sample s) { return locator_.find(surface_, s); };
   for (const auto& [from, to] : surface_.compact_vertices(find)) heights_[to] = heights_[from];
   heights_.resize(surface_.vertices().size());
 }

@@ -105,36 +105,65 @@ float Tin::height_in(const tin::Triangle& t, double i, double j) const {
   return static_cast<float>(plane(i, j));
 }
 
-float Tin::height(float x, float z) const {
+std::optional<tin::Locator::Point> Tin::point_at(float x, float z) const {
   const Bounds& bounds = grid_.bounds;
-  if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) {
-    return Heightfield::kNoData;
-  }
-  const double i = in_cells(x, grid_.origin_x, grid_.cell_x, grid_.width),
-               j = in_cells(z, grid_.origin_z, grid_.cell_z, grid_.depth);
-  const std::uint32_t at = locator_.find(ground_.surface, i, j);
+  if (!(x >= bounds.low.x && x <= bounds.high.x && z >= bounds.low.z && z <= bounds.high.z)) return {};
+  return {{in_cells(x, grid_.origin_x, grid_.cell_x, grid_.width),
+           in_cells(z, grid_.origin_z, grid_.cell_z, grid_.depth)}};
+}
+
+float Tin::height(float x, float z) const {
+  const auto p = point_at(x, z);
+  return p ? height_at(*p, locator_.find(ground_.surface, *p)) : Heightfield::kNoData;
+}
+
+float Tin::height_at(tin::Locator::Point p, std::uint32_t at) const {
   const tin::Triangle& t = ground_.surface.triangles()[at];
-  if (ground_.holes.empty() || ground_.holes[at] == 0) return height_in(t, i, j);
+  if (ground_.holes.empty() || ground_.holes[at] == 0) return height_in(t, p.i, p.j);
   // Inside a hole there is no data. On its rim, and on lines between two holes, lie vertices one cell apart.
   for (const std::uint32_t v : t.vertex) {
-    if (const tin::Sample a = ground_.surface.vertices()[v]; a.i == i && a.j == j) return ground_.heights[v];
+    const tin::Sample a = ground_.surface.vertices()[v];
+    if (a.i == p.i && a.j == p.j) return ground_.heights[v];
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t from = t.vertex[(k + 1) % 3], to = t.vertex[(k + 2) % 3];
     const tin::Sample a = ground_.surface.vertices()[from], b = ground_.surface.vertices()[to];
-    if (std::abs(a.i - b.i) + std::abs(a.j - b.j) == 1 && tin::twice_area_to(a, b, i, j) == 0) {
-      const auto along = static_cast<float>(std::abs(i - a.i) + std::abs(j - a.j));
+    if (std::abs(a.i - b.i) + std::abs(a.j - b.j) == 1 && tin::twice_area_to(a, b, p) == 0) {
+      const auto along = static_cast<float>(std::abs(p.i - a.i) + std::abs(p.j - a.j));
       return ground_.heights[from] + along * (ground_.heights[to] - ground_.heights[from]);
     }
   }
   return Heightfield::kNoData;
 }
 
+void Tin::heights(Columns where, std::span<float> tops) const {
+  std::array<tin::Locator::Point, tin::Locator::kAtOnce> points;
+  std::array<std::uint32_t, tin::Locator::kAtOnce> columns, triangles;
+  std::size_t count = 0;
+  for (std::uint32_t c = 0; c < where.size(); ++c) {
+    tops[c] = Heightfield::kNoData;
+    const auto p = point_at(where.x[c], where.z[c]);
+    if (!p) continue;
+    points[count] = *p;
+    columns[count++] = c;
+  }
+  locator_.find(ground_.surface, {points.data(), count}, triangles);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (const std::uint32_t v : ground_.surface.triangles()[triangles[k]].vertex)
+      tin::prefetch(&ground_.heights[v]);
+  }
+  for (std::size_t k = 0; k < count; ++k) tops[columns[k]] = height_at(points[k], triangles[k]);
+}
+
 void Tin::spans(Columns where, SpanSink& out) const {
-  for (std::size_t c = 0; c < where.size(); ++c) {
-    const float top = height(where.x[c], where.z[c]);
-    if (top > grid_.bounds.low.y) out.add({grid_.bounds.low.y, top, Material::kBedrock});
-    out.end_column();
+  std::array<float, tin::Locator::kAtOnce> tops;
+  for (std::size_t first = 0; first < where.size(); first += tops.size()) {
+    const std::size_t count = std::min(where.size() - first, tops.size());
+    heights({where.x.subspan(first, count), where.z.subspan(first, count)}, tops);
+    for (const float top : std::span(tops).first(count)) {
+      if (top > grid_.bounds.low.y) out.add({grid_.bounds.low.y, top, Material::kBedrock});
+      out.end_column();
+    }
   }
 }
 

@@ -51,6 +51,9 @@ class Tin final : public Representation {
   // In order.
   Tin(const HeightGrid& grid, float largest_error, tin::Approximation);
   float height_in(const tin::Triangle&, double i, double j) const;
+  std::optional<tin::Locator::Point> point_at(float x, float z) const;  // none outside the bounds
+  float height_at(tin::Locator::Point, std::uint32_t triangle) const;
+  void heights(Columns where, std::span<float> tops) const;  // of up to Locator::kAtOnce columns
   glm::vec3 position(std::uint32_t vertex) const;
   // `numbers`: of the vertices among the positions.
   void add_margin(std::span<const std::uint32_t> numbers, std::vector<glm::vec3>& positions,

@@ -1,6 +1,9 @@
 #include "representations/tin/tin.h"
 
 #include <gmock/gmock.h>
+#include <tbb/global_control.h>
+
+#include <thread>
 
 #include "representations/column_grid.h"
 #include "representations/tin/triangle_plane.h"
@@ -57,6 +60,73 @@ TEST(DelaunayTest, TheOrderOfInsertionDoesNotMatter) {
     std::shuffle(samples.begin(), samples.end(), std::mt19937(seed));
     EXPECT_EQ(corners(triangulated(9, 9, samples)), expected) << seed;
   }
+}
+
+// One sample per triangle, listed with it before the threads start, as greedy insertion does.
+TEST(DelaunayTest, ThreadsInTilesOfTheirOwnGiveTheTriangulationOfTheSamples) {
+  constexpr int kSide = 256, kTile = 64;
+  std::vector<Sample> all = some_samples(kSide, 4000, 4);
+  Delaunay surface = triangulated(kSide, kSide, all);
+  struct Work {
+    tin::Tile tile;
+    std::vector<std::pair<Sample, std::uint32_t>> due;
+    Delaunay::Workspace space;
+    std::vector<std::uint32_t> changed;
+    std::vector<Sample> left;
+  };
+  std::vector<Work> works;
+  for (std::uint16_t j = 0; j < kSide; j += kTile) {
+    for (std::uint16_t i = 0; i < kSide; i += kTile) works.push_back({{{i, j}, kTile}, {}, {}, {}, {}});
+  }
+  std::set<std::uint32_t> taken;
+  std::uint32_t near = 0;
+  for (const Sample s : some_samples(kSide, 2000, 5)) {
+    near = surface.locate(s, near);
+    if (surface.vertex_at(s, near) != Delaunay::kNone || !taken.insert(near).second) continue;
+    works[static_cast<std::size_t>(s.j / kTile * (kSide / kTile) + s.i / kTile)].due.emplace_back(s, near);
+    all.push_back(s);
+  }
+  for (Work& work : works) work.space = surface.make_workspace(work.due.size());
+  {
+    std::vector<std::jthread> threads;  // not TBB's, which ThreadSanitizer does not see
+    for (Work& work : works) {
+      threads.emplace_back([&] {
+        for (const auto& [s, triangle] : work.due) {
+          if (std::ranges::count(work.changed, triangle) > 0 ||
+              surface.insert_in(work.tile, s, triangle, work.space, work.changed) == Delaunay::kNone) {
+            work.left.push_back(s);
+          }
+        }
+      });
+    }
+  }
+  std::size_t left = 0;
+  std::vector<std::uint32_t> changed;
+  for (Work& work : works) {
+    surface.take_back(std::move(work.space));
+    left += work.left.size();
+    for (const Sample s : work.left) surface.insert(s, surface.locate(s, 0), changed);
+  }
+  surface.put_in_order();
+  EXPECT_GT(left, 0U);
+  EXPECT_LT(left, taken.size() / 2);
+  EXPECT_EQ(corners(surface), corners(triangulated(kSide, kSide, all)));
+}
+
+// So rough that tiles are taken.
+TEST(TinTest, EveryNumberOfThreadsPicksTheSameVertices) {
+  Heightfield field = hills(800, 800);
+  std::mt19937 random(6);
+  for (float& h : field.heights) h += static_cast<float>(random() % 64);
+  Progress progress;
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism, threads);
+    return tin::greedy_insertion(field, 1, progress);
+  };
+  const tin::Approximation one = with(1), four = with(4);
+  EXPECT_GT(one.heights.size(), 400'000U);
+  EXPECT_EQ(one.surface.vertices(), four.surface.vertices());
+  EXPECT_EQ(one.heights, four.heights);
 }
 
 TEST(TinTest, NoSampleIsMissedByMoreThanTheLargestError) {
