@@ -7,8 +7,8 @@
 
 #include "experiments/figures/views.h"
 #include "experiments/ght/figures.h"
-#include "representations/tin/greedy_insertion.h"
-#include "representations/tin/triangle_plane.h"
+#include "terrain/tin/greedy_insertion.h"
+#include "terrain/tin/triangle_plane.h"
 
 namespace terrabench::ght {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "representations/tin/triangle_scan.h"
+#include "terrain/tin/triangle_scan.h"
 
 namespace terrabench::tin {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 

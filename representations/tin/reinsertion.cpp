@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "representations/tin/triangle_plane.h"
+#include "terrain/tin/triangle_plane.h"
 
 namespace terrabench::tin {
 

@@ -17,9 +17,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "representations/tin/greedy_insertion.h"
 #include "representations/tin/height_window.h"
 #include "representations/tin/locator.h"
+#include "terrain/tin/greedy_insertion.h"
 
 namespace terrabench::tin {
 

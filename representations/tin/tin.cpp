@@ -13,8 +13,8 @@
 #include "representations/procedural_mesh/shell.h"
 #include "representations/tin/reinsertion.h"
 #include "representations/tin/tin_codec.h"
-#include "representations/tin/triangle_plane.h"
 #include "terrain/error.h"
+#include "terrain/tin/triangle_plane.h"
 
 namespace terrabench {
 namespace {
@@ -91,6 +91,7 @@ std::unique_ptr<Representation> Tin::build(const TerrainSource& source, const Pa
   const auto sampled = Heightmap::build(source, parameters, progress);
   const auto& map = static_cast<const Heightmap&>(*sampled);
   const Heightfield field = as_field(map);
+  require_cells(field.width, field.depth, "tin");
   auto error = static_cast<float>(parameters.number("max_error"));
   if (error == 0) {
     const HeightRange range = height_range(field);

@@ -12,8 +12,8 @@
 #include "representations/heightmap/heightmap.h"
 #include "representations/line_grid.h"
 #include "representations/representation.h"
-#include "representations/tin/greedy_insertion.h"
 #include "representations/tin/locator.h"
+#include "terrain/tin/greedy_insertion.h"
 
 namespace terrabench {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "representations/coding/range_coder.h"
-#include "representations/tin/triangle_plane.h"
 #include "terrain/memory.h"
+#include "terrain/tin/triangle_plane.h"
 
 namespace terrabench::tin {
 namespace {

@@ -3,8 +3,8 @@
 // vertices (delaunay.h), so that connectivity takes nothing.
 #pragma once
 
-#include "representations/tin/greedy_insertion.h"
 #include "terrain/files.h"
+#include "terrain/tin/greedy_insertion.h"
 
 namespace terrabench::tin {
 

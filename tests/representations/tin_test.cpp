@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "representations/column_grid.h"
-#include "representations/tin/triangle_plane.h"
+#include "terrain/tin/triangle_plane.h"
 #include "tests/representations/tin_ground.h"
 
 namespace terrabench::test {

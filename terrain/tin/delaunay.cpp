@@ -1,10 +1,10 @@
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/delaunay.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "representations/tin/circles.h"
+#include "terrain/tin/circles.h"
 
 namespace terrabench::tin {
 namespace {
@@ -65,9 +65,10 @@ void Delaunay::reserve(std::size_t vertices) {
 }
 
 Delaunay::Former Delaunay::put_in_order() {
+  const std::size_t rows = std::ranges::max(vertices_, {}, &Sample::j).j + std::size_t{1};
   std::vector<std::uint32_t> former = sorted(
-      used(vertices_.size(), free_vertices_), std::size_t{1} << 16,
-      [&](std::uint32_t v) { return vertices_[v].j; }, [&](std::uint32_t v) { return vertices_[v].i; });
+      used(vertices_.size(), free_vertices_), rows, [&](std::uint32_t v) { return vertices_[v].j; },
+      [&](std::uint32_t v) { return vertices_[v].i; });
   const std::vector<std::uint32_t> vertex_now = inverse(former, vertices_.size());
   std::vector<std::uint32_t> order = used(triangles_.size(), free_triangles_);
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 

@@ -9,9 +9,9 @@
 
 #include <span>
 
-#include "representations/tin/delaunay.h"
 #include "terrain/heightfield.h"
 #include "terrain/progress.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 
@@ -30,8 +30,7 @@ inline std::array<float, 3> corner_heights(const Triangle& t, const std::vector<
 
 // In order. Every sample with data is met to within `largest_error` metres, ≥ 0. Squares of samples of which
 // one has no data are holes: all samples on their rims become vertices, so that triangles lie wholly inside
-// or outside. Throws usage_error for fewer than 2 × 2 samples. O((samples + vertices) log vertices) for most
-// ground.
+// or outside. Needs 2 × 2 samples at least. O((samples + vertices) log vertices) for most ground.
 Approximation greedy_insertion(const Heightfield&, float largest_error, Progress&);
 
 }  // namespace terrabench::tin

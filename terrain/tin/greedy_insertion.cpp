@@ -1,4 +1,4 @@
-#include "representations/tin/greedy_insertion.h"
+#include "terrain/tin/greedy_insertion.h"
 
 #include <tbb/parallel_for_each.h>
 #include <tbb/parallel_sort.h>
@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "representations/column_grid.h"
-#include "representations/tin/triangle_scan.h"
+#include "terrain/tin/triangle_scan.h"
 
 namespace terrabench::tin {
 namespace {
@@ -319,7 +318,6 @@ void put_in_order(Approximation& a) {
 }
 
 Approximation greedy_insertion(const Heightfield& field, float largest_error, Progress& progress) {
-  require_cells(field.width, field.depth, "tin");
   return Insertion(field, largest_error, progress).run();
 }
 

@@ -1,7 +1,7 @@
 // The plane through three vertices, over positions in cells.
 #pragma once
 
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 

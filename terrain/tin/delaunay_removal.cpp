@@ -3,8 +3,8 @@
 #include <cassert>
 #include <functional>
 
-#include "representations/tin/circles.h"
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/circles.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 

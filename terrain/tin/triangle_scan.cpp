@@ -1,8 +1,8 @@
-#include "representations/tin/triangle_scan.h"
+#include "terrain/tin/triangle_scan.h"
 
 #include <bit>
 
-#include "representations/tin/triangle_plane.h"
+#include "terrain/tin/triangle_plane.h"
 
 namespace terrabench::tin {
 namespace {

@@ -1,7 +1,7 @@
 // Exact tests with circles, for Delaunay.
 #pragma once
 
-#include "representations/tin/delaunay.h"
+#include "terrain/tin/delaunay.h"
 
 namespace terrabench::tin {
 
