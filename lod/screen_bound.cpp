@@ -26,26 +26,34 @@ ScreenBound::ScreenBound(const View& view, double pixels)
   secant_ = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
 }
 
-// Without branches, so that the compiler vectorises the loop.
+// Without branches, so that the compiler vectorises the loop over boxes.
+[[gnu::always_inline]] inline float ScreenBound::allow_in(float low_x, float high_x, float low_y,
+                                                          float high_y, float low_z, float high_z) const {
+  const auto beyond = [](double low, double high) { return std::max(std::max(low, -high), 0.0); };
+  const double x0 = low_x - eye_.x, x1 = high_x - eye_.x, y0 = low_y - eye_.y, y1 = high_y - eye_.y,
+               z0 = low_z - eye_.z, z1 = high_z - eye_.z;
+  const double x = beyond(x0, x1), y = beyond(y0, y1), z = beyond(z0, z1);
+  const double far_x = std::max(-x0, x1), far_z = std::max(-z0, z1);
+  const double ahead = std::min(x0 * forward_.x, x1 * forward_.x) +
+                       std::min(y0 * forward_.y, y1 * forward_.y) +
+                       std::min(z0 * forward_.z, z1 * forward_.z);
+  const double least_depth = std::max(std::max(near_, std::sqrt(x * x + y * y + z * z) / secant_), ahead);
+  const double spread = std::min(secant_, std::sqrt(far_x * far_x + far_z * far_z) / least_depth);
+  // Slightly less, so that a check of the bound may round differently.
+  return finite((1 - 1e-6) * pixels_ * least_depth / (focal_ * spread + pixels_ * std::abs(forward_.y)));
+}
+
+float ScreenBound::allow(const Bounds& box) const {
+  return allow_in(box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z);
+}
+
 void ScreenBound::allow(const Boxes& boxes, std::size_t first, std::size_t last, float* metres) const {
   const float *const low_x = boxes.low[0].data(), *const high_x = boxes.high[0].data(),
                      *const low_y = boxes.low[1].data(), *const high_y = boxes.high[1].data(),
                      *const low_z = boxes.low[2].data(), *const high_z = boxes.high[2].data();
-  const glm::dvec3 eye = eye_, forward = forward_;
-  const double near = near_, secant = secant_, focal = focal_, rise = pixels_ * std::abs(forward_.y);
-  // Slightly less, so that a check of the bound may round differently.
-  const double pixels = (1 - 1e-6) * pixels_;
-  const auto beyond = [](double low, double high) { return std::max(std::max(low, -high), 0.0); };
+  const ScreenBound local = *this;
   for (std::size_t k = first; k < last; ++k) {
-    const double x0 = low_x[k] - eye.x, x1 = high_x[k] - eye.x, y0 = low_y[k] - eye.y, y1 = high_y[k] - eye.y,
-                 z0 = low_z[k] - eye.z, z1 = high_z[k] - eye.z;
-    const double x = beyond(x0, x1), y = beyond(y0, y1), z = beyond(z0, z1);
-    const double far_x = std::max(-x0, x1), far_z = std::max(-z0, z1);
-    const double ahead = std::min(x0 * forward.x, x1 * forward.x) + std::min(y0 * forward.y, y1 * forward.y) +
-                         std::min(z0 * forward.z, z1 * forward.z);
-    const double least_depth = std::max(std::max(near, std::sqrt(x * x + y * y + z * z) / secant), ahead);
-    const double spread = std::min(secant, std::sqrt(far_x * far_x + far_z * far_z) / least_depth);
-    metres[k] = finite(pixels * least_depth / (focal * spread + rise));
+    metres[k] = local.allow_in(low_x[k], high_x[k], low_y[k], high_y[k], low_z[k], high_z[k]);
   }
 }
 

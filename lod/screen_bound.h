@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "terrain/solid.h"
 #include "terrain/view.h"
 
 namespace terrabench {
@@ -27,8 +28,9 @@ class ScreenBound {
   // `pixels`: the allowed screen-space error, > 0.
   ScreenBound(const View&, double pixels);
 
-  // Writes the allowed vertical error in boxes first … last - 1 to metres[first … last - 1].
+  // Writes the allowed vertical error, metres, in boxes first … last - 1 to metres[first … last - 1].
   void allow(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
+  float allow(const Bounds&) const;
   // Likewise in a ball. At most as much as in a ball inside it, in spite of rounding, if the inner ball keeps
   // 1e-7 of the outer radius away from the outer surface.
   double allow(const glm::dvec3& centre, double radius) const;
@@ -40,6 +42,7 @@ class ScreenBound {
   void allow_level_camera(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
 
  private:
+  float allow_in(float low_x, float high_x, float low_y, float high_y, float low_z, float high_z) const;
   double least_depth(const glm::dvec3& off, double radius) const;
 
   glm::dvec3 eye_, forward_;
