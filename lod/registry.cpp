@@ -7,6 +7,7 @@
 #include "lod/brute_force/brute_force.h"
 #include "lod/cbt/cbt.h"
 #include "lod/cdlod/cdlod.h"
+#include "lod/chunked/chunked.h"
 #include "lod/clipmap/clipmap.h"
 #include "lod/geomipmap/geomipmap.h"
 #include "lod/hybrid/hybrid.h"
@@ -79,6 +80,15 @@ std::vector<LodType>& table() {
        "morph=false",
        Cdlod::build,
        kByDistanceAlone},
+      {"chunked",
+       "chunked LOD",
+       "a quadtree of static meshes, by their errors on the screen, with skirts over the cracks between",
+       "Ulrich 2002",
+       {.conforming = false, .bounds_error = true, .compared = false},
+       Chunked::knob(),
+       Chunked::parameters(),
+       "skirts=false",
+       Chunked::build},
       {"clipmap",
        "clipmap",
        "nested windows of samples around the eye, each twice as coarse as the next inner one",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -110,6 +111,14 @@ float blend_weight(const ClipLevel& level, int x, int z) {
   return std::clamp((distance - level.from) / (level.to - level.from), 0.0F, 1.0F);
 }
 
+glm::vec3 plain_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
+  const auto samples = static_cast<std::uint32_t>(frame.grid.heights.size());
+  if (vertex < samples) return grid_position(frame.grid, vertex);
+  glm::vec3 position = grid_position(frame.grid, vertex - samples);
+  position.y = std::bit_cast<float>(batch.morph);
+  return position;
+}
+
 glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
   const ClipLevel& level = frame.clip_levels[batch.level];
   const auto side = static_cast<std::uint32_t>(level.side);
@@ -207,7 +216,7 @@ float MorphingNode::coarser(glm::ivec2 at) const {
 glm::vec3 vertex_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
   if (!frame.clip_levels.empty()) return clip_position(frame, batch, vertex);
   if (!frame.morph_ranges.empty()) return node_position(frame, batch, vertex);
-  return frame.morphs.empty() ? grid_position(frame.grid, vertex) : morphed_position(frame, batch, vertex);
+  return frame.morphs.empty() ? plain_position(frame, batch, vertex) : morphed_position(frame, batch, vertex);
 }
 
 namespace {

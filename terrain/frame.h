@@ -14,7 +14,8 @@
 namespace terrabench {
 
 // Heights at grid points: vertex v lies over sample (i, j) = (v % width, v / width), at x = i·cell_x,
-// z = j·cell_z.
+// z = j·cell_z. Vertex width·depth + v lies under vertex v on the floor of its batch: the lower end of a
+// skirt.
 struct GroundGrid {
   int width = 0, depth = 0;            // samples
   float cell_x = 1.0F, cell_z = 1.0F;  // metres
@@ -85,7 +86,9 @@ struct Batch {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t base_vertex = 0;
   std::uint16_t level = 0;  // 0 is the finest; number of the clip level when the frame has clip levels
-  std::uint32_t morph = 0;  // number in Frame::morphs; for morphing nodes, the sides with a coarser neighbour
+  // Number in Frame::morphs; for morphing nodes, the sides with a coarser neighbour; for skirts, the height of
+  // the floor, metres, as the bits of a float.
+  std::uint32_t morph = 0;
 };
 
 // A mesh in space that a frame draws beside its heights, such as a chunk of an implicit surface; triangles

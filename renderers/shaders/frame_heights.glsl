@@ -6,7 +6,7 @@ struct BatchRecord {
   int level;
   uint first_triangle;
   uint corner;
-  uint morph;  // of patches, or the seams of a morphing node
+  uint morph;  // of patches, the seams of a morphing node, or the floor of skirts
 };
 struct LevelRecord {
   ivec2 corner;
@@ -116,9 +116,14 @@ vec3 node_position(BatchRecord batch, ivec2 vertex) {
 }
 
 vec3 grid_position(BatchRecord batch) {
-  ivec2 at = ivec2(gl_VertexID % samples.x, gl_VertexID / samples.x);
+  int count = samples.x * samples.y;
+  bool on_floor = gl_VertexID >= count;
+  int vertex = on_floor ? gl_VertexID - count : gl_VertexID;
+  ivec2 at = ivec2(vertex % samples.x, vertex / samples.x);
   if (morph_ranges > 0) return node_position(batch, at);
-  float y = patch_side == 0 ? heights[gl_VertexID] : morphed_height(batch, at);
+  float y = on_floor          ? uintBitsToFloat(batch.morph)
+            : patch_side == 0 ? heights[vertex]
+                              : morphed_height(batch, at);
   return vec3(float(at.x) * cell.x, y, float(at.y) * cell.y);
 }
 

@@ -1,0 +1,335 @@
+// No error above the bound, no sight through the cracks, errors as measured, and the cost of a frame.
+#include "lod/chunked/chunked.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "lod/camera/camera_path.h"
+#include "lod/meters/bare_pixels.h"
+#include "lod/meters/projector.h"
+#include "lod/meters/triangle_set.h"
+#include "terrain/error.h"
+#include "tests/lod/drawing.h"
+#include "tests/lod/promises.h"
+
+namespace terrabench::test {
+namespace {
+
+using chunked::kSurface;
+
+Chunked make(const Heightfield& field, const Chunked::Options& options, double pixels) {
+  Chunked lod(field, options, silent());
+  lod.tune(pixels);
+  return lod;
+}
+
+// There are cracks, so promises.h does not apply.
+TEST(Chunked, KeepsItsBoundOnAnyFieldFromAnywhere) {
+  std::mt19937 random(7);
+  double closest = 0;
+  for (const auto& [width, depth] : {std::pair{2, 2}, {3, 100}, {65, 65}, {131, 70}, {603, 344}}) {
+    const Heightfield field = hilly(width, depth, 0.5F, static_cast<unsigned>(width));
+    for (const int side : {2, 8, 64}) {
+      Chunked lod(field, {side}, silent());
+      for (int k = 0; k < 18; ++k) {
+        const double pixels = std::array{0.5, 2.0, 9.0}[static_cast<std::size_t>(k % 3)];
+        lod.tune(pixels);
+        const View view = random_view(field, random);
+        const Frame& frame = lod.update(view);
+        const CrackReport cracks = find_cracks(frame, field.width, field.depth, view);
+        ASSERT_EQ(cracks.bare_edges + cracks.overlaps + cracks.covered_again + cracks.flipped, 0U);
+        const Deviation error =
+            screen_error(SurfaceRaster(frame, field.width, field.depth), field, SeenSamples(field, view))
+                .in_frustum;
+        ASSERT_LE(error.largest, pixels) << width << " × " << depth << ", chunks of " << side;
+        ASSERT_EQ(error.undrawn, 0U);
+        closest = std::max(closest, error.largest / pixels);
+      }
+    }
+  }
+  EXPECT_GT(closest, 0.5);  // the bound is not met by drawing more than necessary
+}
+
+// What a ray from the eye meets first, as the GPU draws it: back faces are not seen.
+enum class Met { kNothing, kSurface, kSkirt, kBelow };
+
+struct Ground {
+  const Heightfield& field;
+  std::vector<glm::vec3> corners;
+
+  // By distance from the eye in lengths of the direction; nothing if the triangle is not met.
+  static std::optional<double> distance(const glm::vec3* t, const glm::dvec3& eye, const glm::dvec3& along) {
+    const glm::dvec3 a(t[0]), u = glm::dvec3(t[1]) - a, v = glm::dvec3(t[2]) - a, off = eye - a;
+    const glm::dvec3 n = glm::cross(u, v);
+    const double facing = -glm::dot(along, n);
+    if (facing == 0) return std::nullopt;
+    const double at = glm::dot(off, n) / facing;
+    const glm::dvec3 p = off + at * along;
+    const double squared = glm::dot(n, n), b = glm::dot(glm::cross(p, v), n),
+                 c = glm::dot(glm::cross(u, p), n);
+    const double slack = 1e-9 * squared;
+    if (at <= 0 || b < -slack || c < -slack || b + c > squared + slack) return std::nullopt;
+    return at;
+  }
+
+  Met first(const glm::dvec3& eye, const glm::dvec3& along) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    Met met = Met::kNothing;
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      const std::optional<double> at = distance(&corners[k], eye, along);
+      if (!at || *at >= nearest) continue;
+      const glm::vec3* const t = &corners[k];
+      const glm::dvec3 n = glm::cross(glm::dvec3(t[1] - t[0]), glm::dvec3(t[2] - t[0]));
+      const bool front = glm::dot(n, along) < 0, skirt = n.y == 0;
+      if (skirt && !front) continue;
+      nearest = *at;
+      met = skirt ? Met::kSkirt : front ? Met::kSurface : Met::kBelow;
+    }
+    return met == Met::kNothing && leaves_below(eye, along) ? Met::kBelow : met;
+  }
+
+  // Whether the ray leaves the ground's extent well below its border. The eye is over the extent.
+  bool leaves_below(const glm::dvec3& eye, const glm::dvec3& along) const {
+    const auto until = [](double from, double step, double end) {
+      return step > 0   ? (end - from) / step
+             : step < 0 ? -from / step
+                        : std::numeric_limits<double>::infinity();
+    };
+    const glm::dvec3 out = eye + along * std::min(until(eye.x, along.x, field.extent_x()),
+                                                  until(eye.z, along.z, field.extent_z()));
+    const auto on_ground = [](double at, float extent) {
+      return std::clamp(static_cast<float>(at), 0.0F, extent);
+    };
+    return out.y + 40 < field.sample(on_ground(out.x, field.extent_x()), on_ground(out.z, field.extent_z()));
+  }
+};
+
+struct Sights {
+  std::array<std::size_t, 4> met{};  // pixels, by Met
+  std::size_t bare = 0;              // pixels
+};
+
+// At the centres of all pixels of small screens; cracks are many pixels wide.
+Sights meet(const Heightfield& field, bool skirts) {
+  Chunked lod = make(field, {8, 1, skirts}, 80);
+  Sights counts;
+  for (const glm::vec2 to : {glm::vec2{1, 0.2F}, {-0.6F, 1}, {-0.5F, -0.8F}, {0.9F, -0.7F}}) {
+    View view;
+    view.eye = {0.5F * field.extent_x(), 60, 0.5F * field.extent_z()};
+    view.target = view.eye + glm::vec3(to.x, -0.5F, to.y);
+    view.width = 96;
+    view.height = 72;
+    const Ground ground{field, corners_of(lod.update(view))};
+    const Projector project(view);
+    counts.bare += find_bare_pixels(lod.update(view), field, view).bare;
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        ++counts.met[static_cast<std::size_t>(ground.first(view.eye, project.direction(x + 0.5, y + 0.5)))];
+      }
+    }
+  }
+  return counts;
+}
+
+TEST(Chunked, SkirtsCoverEveryCrack) {
+  const Heightfield field = hilly(150, 131, 12, 3);
+  const auto of = [](const Sights& sights, Met met) { return sights.met[static_cast<std::size_t>(met)]; };
+  const Sights covered = meet(field, true), open = meet(field, false);
+  EXPECT_EQ(of(covered, Met::kBelow), 0U);
+  EXPECT_GT(of(covered, Met::kSkirt), 50U);
+  EXPECT_EQ(covered.bare, 0U);
+  EXPECT_EQ(of(open, Met::kSkirt), 0U);
+  EXPECT_GT(2 * of(open, Met::kBelow), of(covered, Met::kSkirt));  // others come out of the ground again
+  EXPECT_GT(open.bare, 0U);
+}
+
+SurfaceRaster surface_of(const Chunked& lod, const Heightfield& field, int level, int x, int z) {
+  const IndexRange range = lod.chunks().part(level, x, z, kSurface);
+  const Batch batch{range.first_index, range.index_count};
+  return {{.grid = grid_of(field), .indices = lod.chunks().indices(), .batches = {&batch, 1}},
+          field.width,
+          field.depth};
+}
+
+template <class Use>
+void for_chunks(const Chunked& lod, int from_level, const Use& use) {
+  for (int level = from_level; level < lod.tree().levels(); ++level) {
+    for (int z = 0; z < lod.tree().grid(level).down(); ++z) {
+      for (int x = 0; x < lod.tree().grid(level).across(); ++x) use(level, x, z);
+    }
+  }
+}
+
+TEST(Chunked, ErrorsAreMeasuredAndNoLessThanThoseBelow) {
+  const Heightfield field = hilly(150, 77, 1, 3);
+  const Chunked lod(field, {4, 0.02}, silent());
+  ASSERT_EQ(lod.tree().levels(), 7);
+  for_chunks(lod, 1, [&](int level, int x, int z) {
+    const SurfaceRaster drawn = surface_of(lod, field, level, x, z);
+    const PatchGrid::Patch square = lod.tree().grid(level).patch(x, z);
+    float error = 0;
+    for (int j = square.j0; j <= square.j0 + square.rows; ++j) {
+      for (int i = square.i0; i <= square.i0 + square.columns; ++i) {
+        error = std::max(error, std::abs(drawn.at(i, j) - field.at(i, j)));
+      }
+    }
+    EXPECT_LE(error, 0.02F * static_cast<float>(4 << level));
+    for (const auto& [dx, dz] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+      if (!lod.tree().has(level - 1, 2 * x + dx, 2 * z + dz)) continue;
+      error = std::max(error, lod.chunks().error(level - 1, 2 * x + dx, 2 * z + dz));
+    }
+    EXPECT_EQ(lod.chunks().error(level, x, z), error);
+  });
+}
+
+// The samples of a side, from west to east or north to south.
+std::vector<glm::ivec2> side_of(const PatchGrid::Patch& square, Side side) {
+  const bool along_x = side == kNorth || side == kSouth;
+  std::vector<glm::ivec2> samples;
+  for (int k = 0; k <= (along_x ? square.columns : square.rows); ++k) {
+    const glm::ivec2 off(side == kEast ? square.columns
+                         : along_x     ? k
+                                       : 0,
+                         side == kSouth ? square.rows
+                         : !along_x     ? k
+                                        : 0);
+    samples.push_back(glm::ivec2(square.i0, square.j0) + off);
+  }
+  return samples;
+}
+
+TEST(Floors, AreAsLowAsTheLowestSideOnTheirLine) {
+  const Heightfield field = hilly(150, 77, 3, 3);
+  const Chunked lod(field, {4, 0.1}, silent());
+  const GroundGrid grid = grid_of(field);
+  const chunked::Floors floors(grid, lod.tree(), lod.chunks());
+  // By direction, level and sample: the lowest surface of the chunks with a side there, or the ground.
+  std::map<std::tuple<bool, int, int, int>, float> lowest;
+  for_chunks(lod, 1, [&](int level, int x, int z) {
+    const SurfaceRaster drawn = surface_of(lod, field, level, x, z);
+    for (const Side side : {kNorth, kEast, kSouth, kWest}) {
+      for (const glm::ivec2 at : side_of(lod.tree().grid(level).patch(x, z), side)) {
+        float& low =
+            lowest.try_emplace({side % 2 == 0, level, at.x, at.y}, field.at(at.x, at.y)).first->second;
+        low = std::min(low, drawn.at(at.x, at.y));
+      }
+    }
+  });
+  std::size_t under_samples = 0;
+  for_chunks(lod, 0, [&](int level, int x, int z) {
+    for (const Side side : {kNorth, kEast, kSouth, kWest}) {
+      float expected = std::numeric_limits<float>::max(), sampled = expected;
+      for (const glm::ivec2 at : side_of(lod.tree().grid(level).patch(x, z), side)) {
+        sampled = std::min(sampled, field.at(at.x, at.y));
+        for (int coarser = level; coarser < lod.tree().levels(); ++coarser) {
+          const auto known = lowest.find({side % 2 == 0, coarser, at.x, at.y});
+          if (known != lowest.end()) expected = std::min(expected, known->second);
+        }
+      }
+      expected = std::min(expected, sampled);
+      EXPECT_EQ(floors.at(level, x, z, side), expected);
+      under_samples += expected < sampled ? 1 : 0;
+    }
+  });
+  EXPECT_GT(under_samples, 50U);
+}
+
+TEST(Chunked, DrawsTheSkirtsThatFaceTheEye) {
+  const Heightfield field = flat(17, 17, 7);
+  Chunked lod = make(field, {8}, 0.05);
+  View view = from_above(field);
+  EXPECT_EQ(lod.update(view).stats.triangles, 2U);  // the eye is over the chunk
+  view.eye.z = -10;
+  EXPECT_EQ(lod.update(view).stats.triangles, 4U);
+  view.eye.x = 30;
+  EXPECT_EQ(lod.update(view).stats.triangles, 6U);
+}
+
+// Often enough that chunks move, and that their array is packed.
+TEST(Chunked, DrawsAndUploadsAfterManyEditsAsIfBuiltAnew) {
+  Heightfield field = hilly(100, 90, 0.3F);
+  Chunked lod = make(field, {4, 0.02}, 0.2);
+  View view = from_above(field);
+  view.eye = {50, 30, -10};
+  lod.update(view);
+  std::vector<std::uint32_t> uploaded;
+  std::size_t largest = 0;
+  std::mt19937 random(5);
+  for (int k = 0; k < 60; ++k) {
+    const glm::ivec2 low(random() % 80, random() % 70), high = low + glm::ivec2(random() % 20, random() % 20);
+    std::uniform_real_distribution<float> noise(0, k % 20 == 0 ? 0.0F : static_cast<float>(k % 9));
+    for (int j = low.y; j <= high.y; ++j) {
+      for (int i = low.x; i <= high.x; ++i) field.at(i, j) += noise(random);
+    }
+    lod.edited({low, high});
+    if (k % 3 == 0) continue;  // several edits in a frame
+    const Frame& frame = lod.update(view);
+    uploaded.resize(frame.indices.size());
+    for (const DirtyRange& range : frame.uploads) {
+      if (range.target != DirtyRange::Target::kIndices) continue;
+      ASSERT_LE(range.first + range.count, frame.indices.size());
+      std::copy_n(frame.indices.begin() + range.first, range.count, uploaded.begin() + range.first);
+    }
+    largest = std::max(largest, frame.indices.size());
+    Chunked fresh = make(field, {4, 0.02}, 0.2);
+    ASSERT_EQ(TriangleSet(frame), TriangleSet(fresh.update(view))) << k;
+    if (k > 40) {
+      for (const Batch& batch : frame.batches) {
+        for (std::uint32_t i = batch.first_index; i < batch.first_index + batch.index_count; ++i) {
+          ASSERT_EQ(uploaded[i], frame.indices[i]) << k;
+        }
+      }
+    }
+  }
+  EXPECT_LT(lod.update(view).indices.size(), largest);
+}
+
+TEST(Chunked, UploadsOnceAndCountsChanges) {
+  const Heightfield field = hilly(300, 200, 0.1F);
+  Chunked lod = make(field, {}, 2);
+  const std::vector<View> all = views(camera_path("fly"), field);
+  const Frame& first = lod.update(all[0]);
+  EXPECT_EQ(first.stats.bytes_uploaded, 4 * (first.indices.size() + field.heights.size()));
+  EXPECT_GT(first.stats.changes, 0U);
+  EXPECT_EQ(lod.update(all[0]).stats.changes, 0U);
+  const Frame& later = lod.update(all[100]);
+  EXPECT_GT(later.stats.changes, 0U);
+  EXPECT_EQ(later.stats.bytes_uploaded, 0U);
+}
+
+TEST(Chunked, TakesNoHeapBytesAFrame) {
+  const Heightfield field = hilly(300, 257, 1);
+  Chunked lod = make(field, {}, 1);
+  const std::vector<View> all = views(camera_path("fly"), field);
+  for (const View& view : all) lod.update(view);
+  const std::int64_t live = HeapCounter::live();
+  HeapCounter::reset_peak();
+  for (const View& view : all) lod.update(view);
+  EXPECT_EQ(HeapCounter::peak(), live);
+}
+
+TEST(Chunked, RefusesChunksOfOtherSizes) {
+  const Heightfield field = flat(9, 9);
+  const LodType& type = lod("chunked");
+  Parameters parameters(type.parameters);
+  for (const std::int64_t wrong : {1, 5, 48, 1024}) {
+    EXPECT_THROW(
+        {
+          parameters.set("chunk", wrong);
+          (void)type.build(field, parameters, silent());
+        },
+        Error)
+        << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace terrabench::test
