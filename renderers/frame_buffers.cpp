@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
@@ -84,6 +85,7 @@ FrameBuffers::FrameBuffers() {
   // Bound in every frame, even without clip levels or morphs, so they must not be empty.
   levels_.reserve(sizeof(LevelRecord));
   morphs_.reserve(sizeof(PatchMorph));
+  chunk_vertices_.reserve(sizeof(ChunkVertex));
   ground_.reserve(sizeof(GroundBlock));
 }
 
@@ -104,6 +106,10 @@ void FrameBuffers::upload_morphs(const Frame& frame) {
   morphs_.write(0, frame.morphs.data(), frame.morphs.size_bytes());
 }
 
+void FrameBuffers::upload_chunk_vertices(const Frame& frame) {
+  chunk_vertices_.write(0, frame.chunk_vertices.data(), frame.chunk_vertices.size_bytes());
+}
+
 void FrameBuffers::upload(const Frame& frame, const DirtyRange& range) {
   constexpr std::size_t kWord = 4;
   switch (range.target) {
@@ -115,6 +121,10 @@ void FrameBuffers::upload(const Frame& frame, const DirtyRange& range) {
       break;
     case DirtyRange::Target::kMorphs:
       morphs_.write(range.first * sizeof(PatchMorph), &frame.morphs[range.first], range.bytes());
+      break;
+    case DirtyRange::Target::kChunkVertices:
+      chunk_vertices_.write(range.first * sizeof(ChunkVertex), &frame.chunk_vertices[range.first],
+                            range.bytes());
       break;
     case DirtyRange::Target::kMesh:
       break;
@@ -136,16 +146,19 @@ void FrameBuffers::upload(const Frame& frame) {
   const bool indices = indices_.reserve(frame.indices.size_bytes()) || first;
   const bool heights = heights_.reserve(height_bytes) || first;
   const bool morphs = morphs_.reserve(frame.morphs.size_bytes()) || first;
+  const bool vertices = chunk_vertices_.reserve(frame.chunk_vertices.size_bytes()) || first;
   const std::size_t before = bytes_uploaded();
   if (indices) upload_indices(frame);
   if (heights) upload_heights(frame);
   if (morphs) upload_morphs(frame);
+  if (vertices) upload_chunk_vertices(frame);
   std::size_t named = 0;  // bytes
   for (const DirtyRange& range : frame.uploads) {
     if (range.target == DirtyRange::Target::kMesh) continue;  // upload_meshes() sends it
-    const bool whole = range.target == DirtyRange::Target::kIndices  ? indices
-                       : range.target == DirtyRange::Target::kMorphs ? morphs
-                                                                     : heights;
+    const bool whole = range.target == DirtyRange::Target::kIndices         ? indices
+                       : range.target == DirtyRange::Target::kMorphs        ? morphs
+                       : range.target == DirtyRange::Target::kChunkVertices ? vertices
+                                                                            : heights;
     if (!whole) upload(frame, range);
     named += range.bytes();
   }
@@ -176,6 +189,7 @@ void FrameBuffers::check_contents(const Frame& frame) const {
   }
   compare(heights_, 0, frame.grid.heights, "heights");
   compare(morphs_, 0, frame.morphs, "morphs");
+  compare(chunk_vertices_, 0, frame.chunk_vertices, "chunk vertices");
   // Of clip levels what this frame named: beyond its window a level's array holds anything.
   for (const DirtyRange& range : frame.uploads) {
     if (range.target != DirtyRange::Target::kClipLevel) continue;
@@ -195,7 +209,9 @@ std::uint32_t FrameBuffers::describe(const Frame& frame) {
   std::uint32_t triangle = 0;
   for (const Batch& batch : frame.batches) {
     const auto number = static_cast<std::uint32_t>(draw_commands_.size());
-    batch_records_.push_back({batch.level, triangle, batch.base_vertex, batch.morph});
+    const std::uint32_t corner =
+        frame.chunk_vertices.empty() ? batch.base_vertex : std::bit_cast<std::uint32_t>(batch.share);
+    batch_records_.push_back({batch.level, triangle, corner, batch.morph});
     draw_commands_.push_back(
         {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
     triangle += batch.index_count / 3;
@@ -257,6 +273,7 @@ void FrameBuffers::draw_heights() {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, batches_.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, levels_.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, morphs_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, chunk_vertices_.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
   glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr,
                               static_cast<GLsizei>(draw_commands_.size()), 0);
@@ -282,7 +299,8 @@ void FrameBuffers::draw_meshes() {
 
 std::size_t FrameBuffers::bytes_uploaded() const {
   std::size_t bytes = mesh_bytes_;
-  for (const GrowingBuffer* buffer : {&indices_, &heights_, &morphs_, &batches_, &levels_, &commands_}) {
+  for (const GrowingBuffer* buffer :
+       {&indices_, &heights_, &morphs_, &chunk_vertices_, &batches_, &levels_, &commands_}) {
     bytes += buffer->written();
   }
   return bytes;

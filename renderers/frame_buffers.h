@@ -86,13 +86,14 @@ class FrameBuffers {
   void upload_indices(const Frame&);
   void upload_heights(const Frame&);
   void upload_morphs(const Frame&);
+  void upload_chunk_vertices(const Frame&);
   void upload(const Frame&, const DirtyRange&);
   void check_contents(const Frame&) const;
   void upload_meshes(const Frame&, std::uint32_t first_triangle);
   std::uint32_t describe(const Frame&);
 
   VertexArray heights_array_, mesh_array_;
-  GrowingBuffer indices_, batches_, levels_, commands_, morphs_;
+  GrowingBuffer indices_, batches_, levels_, commands_, morphs_, chunk_vertices_;
   GrowingBuffer heights_{0};  // grows only when a clipmap adds levels
   GrowingBuffer ground_;      // the uniform block
   std::uint64_t frames_ = 0;

@@ -114,8 +114,14 @@ float blend_weight(const ClipLevel& level, int x, int z) {
 glm::vec3 plain_position(const Frame& frame, const Batch& batch, std::uint32_t vertex) {
   const auto samples = static_cast<std::uint32_t>(frame.grid.heights.size());
   if (vertex < samples) return grid_position(frame.grid, vertex);
-  glm::vec3 position = grid_position(frame.grid, vertex - samples);
-  position.y = std::bit_cast<float>(batch.morph);
+  if (vertex < 2 * samples) {
+    glm::vec3 position = grid_position(frame.grid, vertex - samples);
+    position.y = std::bit_cast<float>(batch.morph);
+    return position;
+  }
+  const ChunkVertex& moving = frame.chunk_vertices[vertex - 2 * samples];
+  glm::vec3 position = grid_position(frame.grid, moving.sample);
+  position.y = between(position.y, moving.coarser, batch.share);
   return position;
 }
 
@@ -151,6 +157,7 @@ glm::vec3 clip_position(const Frame& frame, const Batch& batch, std::uint32_t ve
 std::size_t DirtyRange::bytes() const {
   if (target == Target::kClipLevel) return std::size_t{4} * width * depth;
   if (target == Target::kMesh) return count;
+  if (target == Target::kChunkVertices) return count * sizeof(ChunkVertex);
   return count * (target == Target::kMorphs ? sizeof(PatchMorph) : 4);
 }
 

@@ -70,6 +70,13 @@ struct MorphingNode {
   glm::ivec2 odd(glm::ivec2 at) const;
 };
 
+// A vertex of a chunk that morphs to the next coarser chunk's surface (Ulrich 2002): over a sample, and the
+// share of its batch on the way from there to another height.
+struct ChunkVertex {
+  std::uint32_t sample = 0;
+  float coarser = 0;  // metres
+};
+
 // The share of their way that the vertices of a level have morphed at a distance d from the eye, in metres:
 // clamp((d - from) / (to - from)). from = to: they do not morph.
 struct MorphRange {
@@ -86,9 +93,10 @@ struct Batch {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t base_vertex = 0;
   std::uint16_t level = 0;  // 0 is the finest; number of the clip level when the frame has clip levels
-  // Number in Frame::morphs; for morphing nodes, the sides with a coarser neighbour; for skirts, the height of
-  // the floor, metres, as the bits of a float.
+  // Number in Frame::morphs; for morphing nodes, the sides with a coarser neighbour; for skirts, the height
+  // of the floor, metres, as the bits of a float.
   std::uint32_t morph = 0;
+  float share = 0;  // of its way, 0 to 1, that a chunk has morphed
 };
 
 // A mesh in space that a frame draws beside its heights, such as a chunk of an implicit surface; triangles
@@ -104,14 +112,15 @@ struct FrameMesh {
   std::size_t bytes() const { return positions.size_bytes() + normals.size_bytes() + indices.size_bytes(); }
 };
 
-// A part of the frame's arrays that differs from the last frame: a range of indices, of grid heights or of
-// morphs, a rectangle of a clip level in toroidal array coordinates, or a mesh that the last frame did not
-// list. The first frame lists everything.
+// A part of the frame's arrays that differs from the last frame: a range of indices, of grid heights, of
+// morphs or of chunk vertices, a rectangle of a clip level in toroidal array coordinates, or a mesh that the
+// last frame did not list. The first frame lists everything.
 struct DirtyRange {
   enum class Target : std::uint8_t {
     kIndices,
     kHeights,
     kMorphs,
+    kChunkVertices,
     kClipLevel,
     kMesh
   } target = Target::kIndices;
@@ -153,6 +162,8 @@ struct Frame {
   // vertex, and the eye from which their vertices' distances count. Empty: no nodes morph.
   std::span<const MorphRange> morph_ranges{};
   glm::vec3 eye{0};
+  // Of chunks that morph: vertices from 2·width·depth of the grid on.
+  std::span<const ChunkVertex> chunk_vertices{};
   std::span<const FrameMesh> meshes{};
   std::span<const DirtyRange> uploads{};
   FrameStats stats{};

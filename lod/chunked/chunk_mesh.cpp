@@ -133,6 +133,61 @@ ChunkMesh triangulate(const GroundGrid& grid, const PatchGrid::Patch& square, fl
   return mesh;
 }
 
+namespace {
+
+// Calls use(x, z, height) for the samples of the square under a triangle, from its low corner on.
+// height_of(vertex) gives that of a corner.
+template <class HeightOf, class Use>
+void for_samples_under(const std::uint32_t* vertices, const GroundGrid& grid, const PatchGrid::Patch& square,
+                       const HeightOf& height_of, const Use& use) {
+  const auto width = static_cast<std::uint32_t>(grid.width);
+  Corner corners[3];
+  for (int k = 0; k < 3; ++k) {
+    corners[k] = {static_cast<int>(vertices[k] % width) - square.i0,
+                  static_cast<int>(vertices[k] / width) - square.j0, height_of(vertices[k])};
+  }
+  const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [north, south] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
+  if (east < 0 || south < 0 || west > square.columns || north > square.rows) return;
+  for_samples_on(corners, square.columns + 1, square.rows + 1, [&](int x, int z, float y) {
+    if (x >= 0 && z >= 0 && x <= square.columns && z <= square.rows) use(x, z, y);
+  });
+}
+
+}  // namespace
+
+void morph_to(std::span<const std::uint32_t> coarser, const GroundGrid& grid, const PatchGrid::Patch& square,
+              ChunkMesh& mesh) {
+  const auto width = static_cast<std::uint32_t>(grid.width);
+  const auto samples = static_cast<std::uint32_t>(grid.heights.size());
+  Heightfield there = Heightfield::zeros(square.columns + 1, square.rows + 1);
+  for (std::size_t k = 0; k < coarser.size(); k += 3) {
+    for_samples_under(
+        &coarser[k], grid, square, [&](std::uint32_t v) { return grid.heights[v]; },
+        [&](int x, int z, float y) { there.at(x, z) = y; });
+  }
+  const auto height_there = [&](std::uint32_t v) {
+    return there.at(static_cast<int>(v % width) - square.i0, static_cast<int>(v / width) - square.j0);
+  };
+  const std::span surface(mesh.indices.begin() + mesh.counts[kSouthSkirt] + mesh.counts[kWestSkirt],
+                          mesh.counts[kSurface]);
+  for (std::size_t k = 0; k < surface.size(); k += 3) {
+    for_samples_under(&surface[k], grid, square, height_there, [&](int x, int z, float y) {
+      const std::size_t at = static_cast<std::size_t>(square.j0 + z) * width + square.i0 + x;
+      mesh.morphed_error = std::max(mesh.morphed_error, std::abs(grid.heights[at] - y));
+    });
+  }
+  std::vector<std::uint32_t> used(surface.begin(), surface.end());
+  std::ranges::sort(used);
+  const auto repeated = std::ranges::unique(used);
+  used.erase(repeated.begin(), repeated.end());
+  for (const std::uint32_t v : used) mesh.vertices.push_back({v, height_there(v)});
+  for (std::uint32_t& index : mesh.indices) {
+    if (index >= samples) continue;  // on the floor
+    index = 2 * samples + static_cast<std::uint32_t>(std::ranges::lower_bound(used, index) - used.begin());
+  }
+}
+
 ChunkMesh exact_pattern(const GroundGrid& grid, const PatchGrid::Patch& square, bool skirts) {
   const auto width = static_cast<std::uint32_t>(grid.width);
   const auto columns = static_cast<std::uint32_t>(square.columns),

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lod/geomipmap/patch_grid.h"
@@ -27,6 +28,9 @@ struct ChunkMesh {
   std::vector<std::uint32_t> indices;          // vertices; counter-clockwise from above or from outside
   std::array<std::uint32_t, kParts> counts{};  // indices of each part
   float error = 0;                             // largest at any sample of the square, metres
+  // Of a chunk that morphs, by sample; indices then count them from vertex 2·width·depth of the ground on.
+  std::vector<ChunkVertex> vertices{};
+  float morphed_error = 0;  // when all vertices have arrived
 };
 
 // A triangulation that misses no sample by more than `largest_error`, metres, if floats allow; `error` says
@@ -36,5 +40,9 @@ ChunkMesh triangulate(const GroundGrid&, const PatchGrid::Patch&, float largest_
 // Two triangles per cell, without error. Vertices are relative to the low corner, so that all squares of this
 // shape share one. A skirt has two triangles per edge. O(samples).
 ChunkMesh exact_pattern(const GroundGrid&, const PatchGrid::Patch&, bool skirts);
+
+// Lets the vertices morph to another surface: triangles of samples, three per triangle, that cover the
+// square. O(samples + triangles).
+void morph_to(std::span<const std::uint32_t> coarser, const GroundGrid&, const PatchGrid::Patch&, ChunkMesh&);
 
 }  // namespace terrabench::chunked

@@ -50,6 +50,7 @@ std::span<const ParameterSpec> Chunked::parameters() {
   static const ParameterSpec kSpecs[] = {
       {"chunk", std::int64_t{8}, "cells", "side of the smallest chunks, a power of two", 2, kLargestSide},
       {"error", 0.008, "", "largest error of a chunk's mesh, as a share of the chunk's side", 1e-6, 1},
+      {"morph", false, "", "morph chunks to the next coarser ones by the error that is allowed"},
       {"skirts", true, "", "cover the cracks between chunks; false leaves them open"},
   };
   return kSpecs;
@@ -58,7 +59,7 @@ std::span<const ParameterSpec> Chunked::parameters() {
 std::unique_ptr<Lod> Chunked::build(const LodGround& from, const Parameters& parameters, Progress& progress) {
   check_ground(from.heights);
   const Options options{static_cast<int>(parameters.integer("chunk")), parameters.number("error"),
-                        parameters.flag("skirts")};
+                        parameters.flag("skirts"), parameters.flag("morph")};
   if (!std::has_single_bit(static_cast<unsigned>(options.side))) {
     throw usage_error(fmt::format("chunk must be a power of two, got {}", options.side), "chunk",
                       "choose 2, 4, 8, 16, 32, 64, 128, 256 or 512");
@@ -103,11 +104,12 @@ const Frame& Chunked::update(const View& view) {
 }
 
 void Chunked::select(const Shown& chunk, unsigned planes, const Sights& sights) {
-  const auto [level, x, z] = chunk;
+  const auto& [level, x, z, unused] = chunk;
   const Bounds box = tree_.box(level, x, z);
   if (planes != 0 && sights.frustum.see(box, planes) == Sight::kOutside) return;
-  if (level == 0 || chunks_.error(level, x, z) <= sights.bound.allow(box)) {
-    shown_.push_back(chunk);
+  const float allowed = sights.bound.allow(box);
+  if (level == 0 || chunks_.error(level, x, z) <= allowed) {
+    shown_.push_back({level, x, z, share(level, x, z, allowed)});
     return;
   }
   for (const auto& [dx, dz] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
@@ -116,9 +118,19 @@ void Chunked::select(const Shown& chunk, unsigned planes, const Sights& sights) 
   }
 }
 
+// The error on the way is at most linear from that of the chunk to that at its end. So that chunks have
+// arrived when the coarser one takes their place, the way ends where that one's error is allowed at the
+// latest.
+float Chunked::share(int level, int x, int z, float allowed) const {
+  if (!options_.morph || level == 0 || level + 1 == tree_.levels()) return 0;
+  const float from = chunks_.error(level, x, z),
+              to = std::max(chunks_.morphed_error(level, x, z), chunks_.error(level + 1, x / 2, z / 2));
+  return to > from ? std::clamp((allowed - from) / (to - from), 0.0F, 1.0F) : 0;
+}
+
 // The surface and the skirts that face the eye: a batch for each run of parts.
 void Chunked::draw(const Shown& chunk, const glm::vec3& eye) {
-  const auto [level, x, z] = chunk;
+  const auto& [level, x, z, share] = chunk;
   const Bounds box = tree_.box(level, x, z);
   float floor = box.high.y;
   std::uint32_t base = 0;
@@ -142,6 +154,7 @@ void Chunked::draw(const Shown& chunk, const glm::vec3& eye) {
   }
   for (std::size_t b = before; b < batches_.size(); ++b) {
     batches_[b].morph = std::bit_cast<std::uint32_t>(floor);
+    batches_[b].share = share;
   }
 }
 
@@ -156,6 +169,9 @@ void Chunked::make_frame() {
   if (first_) {
     uploads_ = {{.target = DirtyRange::Target::kIndices, .count = size(chunks_.indices())},
                 {.target = DirtyRange::Target::kHeights, .count = size(grid_.heights)}};
+    if (options_.morph) {
+      uploads_.push_back({.target = DirtyRange::Target::kChunkVertices, .count = size(chunks_.vertices())});
+    }
     first_ = false;
   }
   frame_ = {.grid = grid_,
@@ -163,6 +179,7 @@ void Chunked::make_frame() {
             .cell_z = grid_.cell_z,
             .indices = chunks_.indices(),
             .batches = batches_,
+            .chunk_vertices = chunks_.vertices(),
             .uploads = uploads_,
             .stats = count(batches_, uploads_, changes)};
 }

@@ -13,8 +13,10 @@
 // at most 512 cells along a side, so that an edit triangulates few samples again.
 //
 // The paper's chunks have vertices of their own; here vertices are samples, so heights are stored once for
-// all levels. The paper also morphs vertices and loads chunks from disk, which is not done here: a chunk pops
-// by up to twice the knob when its level changes.
+// all levels, and chunks are not loaded from disk. A chunk pops by up to twice the knob when its level
+// changes. With `morph`, its vertices move to the next coarser chunk's surface, by a share that follows the
+// error that is allowed, so that the knob still bounds the error. That halves the popping, but cannot end it:
+// the coarser chunk has other triangles, and level 0, which has no vertices of its own, does not morph.
 //
 // To follow a frame: update(), select(), draw(); to follow what is built, chunk_store.h and chunk_mesh.h.
 // update(): O(chunks in view), 0.2 µs each; uploads nothing but commands. Building: O(samples · levels · log
@@ -48,10 +50,13 @@ class Chunked : public Lod {
 
   const chunked::NodeTree& tree() const { return tree_; }
   const chunked::ChunkStore& chunks() const { return chunks_; }
+  // How much of their way the vertices of a chunk go that is drawn where so much error is allowed, metres.
+  float share(int level, int x, int z, float allowed) const;
 
  private:
   struct Shown {
     int level, x, z;
+    float share = 0;
   };
   struct Sights;
   void select(const Shown&, unsigned planes, const Sights&);

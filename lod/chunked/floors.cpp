@@ -96,11 +96,17 @@ void Floors::lower_to(const Place& at, int across, Side side, std::span<float> l
   std::vector<std::uint32_t> tops;
   chunks_.append_tops(at.level, x, z, side, tops);
   const auto place = [&](std::uint32_t vertex) {
-    return static_cast<int>(at.axis == 0 ? vertex / width : vertex % width) - first;
+    const std::uint32_t sample = chunks_.sample(vertex);
+    return static_cast<int>(at.axis == 0 ? sample / width : sample % width) - first;
   };
+  const auto lower = [&](std::size_t k) {
+    float& least = lowest[static_cast<std::size_t>(place(tops[k]))];
+    least = std::min(least, chunks_.lowest(tops[k]));
+  };
+  for (std::size_t k = 0; k < tops.size(); ++k) lower(k);
   for (std::size_t k = 0; k + 1 < tops.size(); ++k) {
     const int from = place(tops[k]), to = place(tops[k + 1]);
-    const double low = grid_.heights[tops[k]], rise = grid_.heights[tops[k + 1]] - low;
+    const double low = chunks_.lowest(tops[k]), rise = chunks_.lowest(tops[k + 1]) - low;
     for (int s = from + 1; s < to; ++s) {
       float& least = lowest[static_cast<std::size_t>(s)];
       least = std::min(least, static_cast<float>(low + rise * (s - from) / (to - from)));

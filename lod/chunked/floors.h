@@ -3,7 +3,7 @@
 // Beside a side of a chunk, any other chunk that has a side on the same line may be drawn, of any level. A
 // skirt that reaches down to the lowest of all their sides within its own closes every crack. Chunks of finer
 // levels and of level 0 are not lower than the lowest sample of the side; coarser ones may be, since they can
-// skip it.
+// skip it. A vertex that morphs counts with the lower end of its way.
 //
 // 8 bytes per chunk. O(samples on sides · levels), in parallel.
 #pragma once

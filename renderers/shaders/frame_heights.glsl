@@ -5,7 +5,7 @@ layout(location = 0) in uint batch_number;
 struct BatchRecord {
   int level;
   uint first_triangle;
-  uint corner;
+  uint corner;  // of patches and nodes; where chunks morph, their share as the bits of a float
   uint morph;  // of patches, the seams of a morphing node, or the floor of skirts
 };
 struct LevelRecord {
@@ -18,6 +18,7 @@ layout(std430, binding = 0) readonly buffer Heights { float heights[]; };
 layout(std430, binding = 1) readonly buffer Batches { BatchRecord batches[]; };
 layout(std430, binding = 2) readonly buffer Levels { LevelRecord levels[]; };
 layout(std430, binding = 3) readonly buffer Morphs { float morphs[]; };  // five per patch: inside and sides
+layout(std430, binding = 4) readonly buffer ChunkVertices { uvec2 chunk_vertices[]; };  // sample, height
 
 layout(std140, binding = 1) uniform Ground {
   ivec2 samples;              // of the grid
@@ -117,11 +118,15 @@ vec3 node_position(BatchRecord batch, ivec2 vertex) {
 
 vec3 grid_position(BatchRecord batch) {
   int count = samples.x * samples.y;
-  bool on_floor = gl_VertexID >= count;
-  int vertex = on_floor ? gl_VertexID - count : gl_VertexID;
+  bool moves = gl_VertexID >= 2 * count, on_floor = !moves && gl_VertexID >= count;
+  int vertex = moves      ? int(chunk_vertices[gl_VertexID - 2 * count].x)
+               : on_floor ? gl_VertexID - count
+                          : gl_VertexID;
   ivec2 at = ivec2(vertex % samples.x, vertex / samples.x);
   if (morph_ranges > 0) return node_position(batch, at);
-  float y = on_floor          ? uintBitsToFloat(batch.morph)
+  float y = moves ? between(heights[vertex], uintBitsToFloat(chunk_vertices[gl_VertexID - 2 * count].y),
+                            uintBitsToFloat(batch.corner))
+            : on_floor        ? uintBitsToFloat(batch.morph)
             : patch_side == 0 ? heights[vertex]
                               : morphed_height(batch, at);
   return vec3(float(at.x) * cell.x, y, float(at.y) * cell.y);
