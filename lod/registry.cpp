@@ -15,6 +15,7 @@
 #include "lod/mrbsp/mrbsp.h"
 #include "lod/roam/roam.h"
 #include "lod/rtin/rtin.h"
+#include "lod/tessellated/tessellated.h"
 #include "terrain/error.h"
 
 namespace terrabench {
@@ -23,6 +24,7 @@ namespace {
 constexpr LodVariant kMorphing[] = {{"morph", "morphing", "morph=true"}};
 constexpr LodVariant kByMiddle[] = {{"midpoint", "midpoint errors", "error=midpoint", false}};
 constexpr LodVariant kByDistanceAlone[] = {{"distance", "ranges by distance", "ranges=distance", false}};
+constexpr LodVariant kByLength[] = {{"length", "factors by length", "factor=length", false}};
 constexpr LodVariant kByArea[] = {{"area", "area threshold", "threshold=area"}};
 
 // A clipmap and the hybrid hold and read windows, of which there are log n.
@@ -143,6 +145,17 @@ std::vector<LodType>& table() {
        Cbt::parameters(),
        "",
        Cbt::build},
+      {"tessellated",
+       "tessellated patches",
+       "square patches that the GPU's tessellator divides, by a factor for each side",
+       "Cantlay 2011",
+       {.conforming = true, .bounds_error = true, .compared = false},
+       Tessellated::knob(),
+       Tessellated::parameters(),
+       "",
+       Tessellated::build,
+       kByLength,
+       kAllInView},
   };
   return types;
 }

@@ -12,7 +12,7 @@
 namespace terrabench {
 namespace {
 
-// Laid out as the block Ground of shaders/frame_heights.glsl.
+// Laid out as the block Ground of shaders/ground_block.glsl.
 struct GroundBlock {
   glm::ivec2 samples;
   glm::vec2 cell;
@@ -37,6 +37,11 @@ std::size_t heights_of(const Frame& frame) {  // bytes
   std::size_t bytes = frame.grid.heights.size_bytes();
   for (const ClipLevel& level : frame.clip_levels) bytes += level.heights.size_bytes();
   return bytes;
+}
+
+// None if the GPU's tessellator makes the triangles.
+std::span<const std::uint32_t> sent_indices(const Frame& frame) {
+  return frame.patches.empty() ? frame.indices : std::span<const std::uint32_t>();
 }
 
 void check_room(std::size_t bytes) {
@@ -77,6 +82,10 @@ FrameBuffers::FrameBuffers() {
   glVertexArrayAttribBinding(heights_array_.id(), 0, 0);
   glVertexArrayBindingDivisor(heights_array_.id(), 0, 1);
   glEnableVertexArrayAttrib(heights_array_.id(), 0);
+  static_assert(sizeof(TessellatedPatch) == 2 * sizeof(std::uint32_t));
+  glVertexArrayAttribIFormat(patches_array_.id(), 0, 2, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(patches_array_.id(), 0, 0);
+  glEnableVertexArrayAttrib(patches_array_.id(), 0);
   for (const GLuint attribute : {0U, 1U}) {
     glVertexArrayAttribFormat(mesh_array_.id(), attribute, 3, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribBinding(mesh_array_.id(), attribute, attribute);
@@ -90,7 +99,8 @@ FrameBuffers::FrameBuffers() {
 }
 
 void FrameBuffers::upload_indices(const Frame& frame) {
-  indices_.write(0, frame.indices.data(), frame.indices.size_bytes());
+  const std::span<const std::uint32_t> indices = sent_indices(frame);
+  indices_.write(0, indices.data(), indices.size_bytes());
 }
 
 void FrameBuffers::upload_heights(const Frame& frame) {
@@ -143,7 +153,7 @@ void FrameBuffers::upload(const Frame& frame) {
   check_room(height_bytes);
   // In a later frame, a buffer that grew is sent whole, and its dirty ranges with it.
   const bool first = frames_++ == 0;
-  const bool indices = indices_.reserve(frame.indices.size_bytes()) || first;
+  const bool indices = indices_.reserve(sent_indices(frame).size_bytes()) || first;
   const bool heights = heights_.reserve(height_bytes) || first;
   const bool morphs = morphs_.reserve(frame.morphs.size_bytes()) || first;
   const bool vertices = chunk_vertices_.reserve(frame.chunk_vertices.size_bytes()) || first;
@@ -183,10 +193,11 @@ void FrameBuffers::check_contents(const Frame& frame) const {
         "either the level-of-detail method changed them without naming the range in Frame::uploads, or the "
         "driver changed the order of commands: report the method, and the renderer's name and version");
   };
-  for (const Batch& batch : frame.batches) {
+  for (const Batch& batch : frame.patches.empty() ? frame.batches : std::span<const Batch>()) {
     compare(indices_, batch.first_index * sizeof(std::uint32_t),
             frame.indices.subspan(batch.first_index, batch.index_count), "indices");
   }
+  compare(patches_, 0, frame.patches, "patches");
   compare(heights_, 0, frame.grid.heights, "heights");
   compare(morphs_, 0, frame.morphs, "morphs");
   compare(chunk_vertices_, 0, frame.chunk_vertices, "chunk vertices");
@@ -209,11 +220,13 @@ std::uint32_t FrameBuffers::describe(const Frame& frame) {
   std::uint32_t triangle = 0;
   for (const Batch& batch : frame.batches) {
     const auto number = static_cast<std::uint32_t>(draw_commands_.size());
-    const std::uint32_t corner =
-        frame.chunk_vertices.empty() ? batch.base_vertex : std::bit_cast<std::uint32_t>(batch.share);
-    batch_records_.push_back({batch.level, triangle, corner, batch.morph});
-    draw_commands_.push_back(
-        {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
+    if (frame.patches.empty()) {
+      const std::uint32_t corner =
+          frame.chunk_vertices.empty() ? batch.base_vertex : std::bit_cast<std::uint32_t>(batch.share);
+      batch_records_.push_back({batch.level, triangle, corner, batch.morph});
+      draw_commands_.push_back(
+          {batch.index_count, 1, batch.first_index, static_cast<std::int32_t>(batch.base_vertex), number});
+    }
     triangle += batch.index_count / 3;
   }
   level_records_.clear();
@@ -223,9 +236,11 @@ std::uint32_t FrameBuffers::describe(const Frame& frame) {
   for (const MorphRange& range : frame.morph_ranges) {
     level_records_.push_back({{}, {}, range.from, range.to, 1, 0});
   }
-  batches_.replace(batch_records_);
-  levels_.replace(level_records_);
-  commands_.replace(draw_commands_);
+  batches_.replace(std::span<const BatchRecord>(batch_records_));
+  levels_.replace(std::span<const LevelRecord>(level_records_));
+  commands_.replace(std::span<const DrawCommand>(draw_commands_));
+  patches_.replace(frame.patches);
+  patch_count_ = static_cast<GLsizei>(frame.patches.size());
   const GroundBlock block{{frame.grid.width, frame.grid.depth},
                           {frame.cell_x, frame.cell_z},
                           frame.first,
@@ -282,6 +297,18 @@ void FrameBuffers::draw_heights() {
   check_gl("drawing the terrain");
 }
 
+void FrameBuffers::draw_patches() {
+  if (patch_count_ == 0) return;
+  glVertexArrayVertexBuffer(patches_array_.id(), 0, patches_.id(), 0, sizeof(TessellatedPatch));
+  glBindVertexArray(patches_array_.id());
+  glBindBufferBase(GL_UNIFORM_BUFFER, kGroundBinding, ground_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, heights_.id());
+  glPatchParameteri(GL_PATCH_VERTICES, 1);
+  glDrawArrays(GL_PATCHES, 0, patch_count_);
+  glBindVertexArray(0);
+  check_gl("drawing the terrain's patches");
+}
+
 void FrameBuffers::draw_meshes() {
   if (drawn_meshes_.empty()) return;
   glBindVertexArray(mesh_array_.id());
@@ -300,7 +327,7 @@ void FrameBuffers::draw_meshes() {
 std::size_t FrameBuffers::bytes_uploaded() const {
   std::size_t bytes = mesh_bytes_;
   for (const GrowingBuffer* buffer :
-       {&indices_, &heights_, &morphs_, &chunk_vertices_, &batches_, &levels_, &commands_}) {
+       {&indices_, &heights_, &morphs_, &patches_, &chunk_vertices_, &batches_, &levels_, &commands_}) {
     bytes += buffer->written();
   }
   return bytes;

@@ -1,11 +1,12 @@
 // The GPU's copy of the frames of one level-of-detail method (terrain/frame.h): heights, indices and batches
 // as buffers that grow, updated by the frames' dirty ranges, and meshes by their id. What draws them chooses
-// the program: vertex shaders for heights begin with frame_heights.glsl; those for meshes take position,
-// normal and first triangle at locations 0, 1 and 2.
+// the program: vertex shaders for heights include frame_heights.glsl; those for meshes take position, normal
+// and first triangle at locations 0, 1 and 2; link_patches() makes those for tessellated patches.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -25,9 +26,9 @@ class GrowingBuffer {
   bool reserve(std::size_t bytes);                  // true: it grew and is empty
   void write(std::size_t at, const void* data, std::size_t bytes);
   template <class T>
-  void replace(const std::vector<T>& content) {
-    reserve(content.size() * sizeof(T));
-    write(0, content.data(), content.size() * sizeof(T));
+  void replace(std::span<const T> content) {
+    reserve(content.size_bytes());
+    write(0, content.data(), content.size_bytes());
   }
 
  private:
@@ -48,8 +49,10 @@ class FrameBuffers {
 
   // Draw what was uploaded with the program in use; depth test, culling and uniforms are the caller's.
   void draw_heights();
+  void draw_patches();
   void draw_meshes();
   bool has_heights() const { return !draw_commands_.empty(); }
+  bool has_patches() const { return patch_count_ > 0; }
   bool has_meshes() const { return !drawn_meshes_.empty(); }
 
   // All bytes written to the GPU's buffers, without a few hundred bytes of uniforms per frame.
@@ -92,10 +95,11 @@ class FrameBuffers {
   void upload_meshes(const Frame&, std::uint32_t first_triangle);
   std::uint32_t describe(const Frame&);
 
-  VertexArray heights_array_, mesh_array_;
-  GrowingBuffer indices_, batches_, levels_, commands_, morphs_, chunk_vertices_;
+  VertexArray heights_array_, patches_array_, mesh_array_;
+  GrowingBuffer indices_, batches_, levels_, commands_, morphs_, patches_, chunk_vertices_;
   GrowingBuffer heights_{0};  // grows only when a clipmap adds levels
   GrowingBuffer ground_;      // the uniform block
+  GLsizei patch_count_ = 0;   // in the last frame
   std::uint64_t frames_ = 0;
   std::size_t mesh_bytes_ = 0, bytes_resent_ = 0;  // in total
   std::vector<BatchRecord> batch_records_;

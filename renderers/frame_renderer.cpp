@@ -23,14 +23,18 @@ struct CullUndersides {
   ~CullUndersides() { glDisable(GL_CULL_FACE); }
 };
 
-// The programs for a frame's heights and meshes that give the same fragments. That for meshes is linked when
-// a frame first has some.
+// The programs for a frame's heights, patches and meshes that give the same fragments. Those for patches and
+// for meshes are linked when a frame first has some.
 class Programs {
  public:
   explicit Programs(std::string_view fragment, std::string_view geometry = "")
       : fragment_(fragment), geometry_(geometry), heights_(link("frame.vert")) {}
 
   const Program& heights() const { return heights_; }
+  const Program& patches() {
+    if (!patches_) patches_.emplace(link_patches("frame_patch.tese", fragment_, geometry_));
+    return *patches_;
+  }
   const Program& meshes() {
     if (!meshes_) meshes_.emplace(link("frame_mesh.vert"));
     return *meshes_;
@@ -41,7 +45,7 @@ class Programs {
 
   std::string_view fragment_, geometry_;
   Program heights_;
-  std::optional<Program> meshes_;
+  std::optional<Program> patches_, meshes_;
 };
 
 void set_matrix(const Program& program, const glm::mat4& world_to_clip) {
@@ -84,6 +88,11 @@ void draw_all(FrameBuffers& buffers, Programs& programs, GLenum nearer, const Pr
     prepare(programs.heights());
     glUseProgram(programs.heights().id());
     buffers.draw_heights();
+  }
+  if (buffers.has_patches()) {
+    prepare(programs.patches());
+    glUseProgram(programs.patches().id());
+    buffers.draw_patches();
   }
   if (buffers.has_meshes()) {
     prepare(programs.meshes());
@@ -168,7 +177,7 @@ std::vector<std::uint32_t> FrameRenderer::triangle_numbers(const Frame& frame, c
   const GLfloat far = 0;
   glClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, kNone);
   glClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &far);
-  gl_->buffers.upload(frame);
+  gl_->buffers.upload(untessellated(frame));  // a tessellator may give triangles in any order
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   draw_all(gl_->buffers, gl_->numbers, GL_GEQUAL, [&](const Program& program) { set_matrix(program, clip); });
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);

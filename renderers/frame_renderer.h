@@ -1,6 +1,6 @@
 // Draws the frames of level-of-detail methods (terrain/frame.h): keeps heights and indices on the GPU,
-// uploads the frame's dirty ranges, and draws all batches with one call. Vertices have the positions of
-// vertex_position().
+// uploads the frame's dirty ranges, and draws all batches with one call, or all patches, which the GPU's
+// tessellator divides. Vertices have the positions of vertex_position().
 #pragma once
 
 #include <cstdint>

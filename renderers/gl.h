@@ -92,6 +92,8 @@ Program link_program(const ShaderFile& vertex, const ShaderFile& fragment,
                      const ShaderFile* geometry = nullptr);
 // By the files' names; "" for no geometry shader.
 Program link_program(std::string_view vertex, std::string_view fragment, std::string_view geometry = "");
+// Of a tessellation evaluation shader for the patches of FrameBuffers, which patch.vert and patch.tesc read.
+Program link_patches(std::string_view evaluation, std::string_view fragment, std::string_view geometry = "");
 Program link_compute(const ShaderFile&);
 
 // The location of a uniform; -1, at which OpenGL ignores values, where the driver has removed the uniform

@@ -160,6 +160,17 @@ Program link_program(std::string_view vertex, std::string_view fragment, std::st
                       geometry.empty() ? nullptr : &shader_file(geometry));
 }
 
+Program link_patches(std::string_view evaluation, std::string_view fragment, std::string_view geometry) {
+  const Shader vertex(GL_VERTEX_SHADER, shader_file("patch.vert")),
+      control(GL_TESS_CONTROL_SHADER, shader_file("patch.tesc")),
+      divided(GL_TESS_EVALUATION_SHADER, shader_file(evaluation)),
+      last(GL_FRAGMENT_SHADER, shader_file(fragment));
+  const std::string names = fmt::format("{} and {}", evaluation, fragment);
+  if (geometry.empty()) return link({&vertex, &control, &divided, &last}, names);
+  const Shader between(GL_GEOMETRY_SHADER, shader_file(geometry));
+  return link({&vertex, &control, &divided, &between, &last}, fmt::format("{}, {}", names, geometry));
+}
+
 Program link_compute(const ShaderFile& file) {
   const Shader only(GL_COMPUTE_SHADER, file);
   return link({&only}, file.name);

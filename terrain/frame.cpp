@@ -161,6 +161,13 @@ std::size_t DirtyRange::bytes() const {
   return count * (target == Target::kMorphs ? sizeof(PatchMorph) : 4);
 }
 
+Frame untessellated(Frame frame) {
+  if (frame.patches.empty()) return frame;
+  frame.patches = {};
+  frame.patch_side = 0;
+  return frame;
+}
+
 FrameStats count(std::span<const Batch> batches, std::span<const DirtyRange> uploads, std::size_t changes,
                  std::size_t levels, std::span<const FrameMesh> meshes) {
   FrameStats stats{.bytes_commands = kBytesPerBatch * batches.size() + kBytesPerClipLevel * levels,

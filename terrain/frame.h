@@ -83,6 +83,14 @@ struct MorphRange {
   float from = 0, to = 0;
 };
 
+// A square of the grid that the GPU's tessellator divides: the vertex at its low corner, and the logarithms
+// to base 2 of the numbers of segments into which it divides the sides, north, east, south and west, and the
+// inside, four bits each from the lowest on. All vertices are samples; those beyond the ground's border lie
+// over its last ones.
+struct TessellatedPatch {
+  std::uint32_t corner = 0, factors = 0;
+};
+
 // A range of an index array, three indices per triangle.
 struct IndexRange {
   std::uint32_t first_index = 0, index_count = 0;
@@ -134,11 +142,13 @@ struct DirtyRange {
 // of 16, and per clip level its position and transition, or per level of morphing nodes its range.
 inline constexpr std::size_t kBytesPerBatch = 36;
 inline constexpr std::size_t kBytesPerClipLevel = 32;
+// Of a tessellated frame, its patches are all that is sent with every frame.
+inline constexpr std::size_t kBytesPerPatch = sizeof(TessellatedPatch);
 
 struct FrameStats {
   std::size_t triangles = 0;       // drawn
   std::size_t bytes_uploaded = 0;  // of terrain: the sum over the dirty ranges
-  std::size_t bytes_commands = 0;  // kBytesPerBatch and kBytesPerClipLevel
+  std::size_t bytes_commands = 0;  // kBytesPerBatch and kBytesPerClipLevel, or kBytesPerPatch
   std::size_t changes = 0;         // since the last frame: splits and merges, levels changed, nodes toggled
 
   std::size_t bytes_sent() const { return bytes_uploaded + bytes_commands; }
@@ -164,10 +174,17 @@ struct Frame {
   glm::vec3 eye{0};
   // Of chunks that morph: vertices from 2·width·depth of the grid on.
   std::span<const ChunkVertex> chunk_vertices{};
+  // What the GPU's tessellator divides, patch_side × patch_side cells each. The batches then have the same
+  // triangles, for meters and for renderers without a tessellator: neither they nor the indices are sent.
+  // Empty: the batches are drawn.
+  std::span<const TessellatedPatch> patches{};
   std::span<const FrameMesh> meshes{};
   std::span<const DirtyRange> uploads{};
   FrameStats stats{};
 };
+
+// The same triangles, drawn as batches: of a tessellated frame all indices must be sent once.
+Frame untessellated(Frame);
 
 // The stats of a frame with these batches, uploads and meshes; `levels`: clip levels, or levels of morphing
 // nodes. O(batches + uploads + meshes).

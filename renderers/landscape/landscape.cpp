@@ -298,7 +298,7 @@ void LandscapeRenderer::draw(const Frame& frame, const View& view, double second
   RenderTarget& target = context_.target();
   target.resize(view.width, view.height);
   gl_->make_targets(view, style_);
-  gl_->buffers.upload(frame);
+  gl_->buffers.upload(untessellated(frame));
   const LandscapeState state;
   Drawing(*gl_, style_, *this, view, seconds).draw(target);
   check_gl("drawing the landscape");
@@ -306,7 +306,7 @@ void LandscapeRenderer::draw(const Frame& frame, const View& view, double second
 
 void LandscapeRenderer::skip(const Frame& frame) {
   context_.make_current();
-  gl_->buffers.upload(frame);
+  gl_->buffers.upload(untessellated(frame));
 }
 
 bool LandscapeRenderer::shows_ground() {

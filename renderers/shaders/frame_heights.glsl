@@ -1,5 +1,6 @@
 // The position of a vertex of a level-of-detail frame: repeats vertex_position() of terrain/frame.cpp step by step.
 // Included by the vertex shaders that draw heights; their inputs and storage are those of renderers/frame_buffers.cpp.
+#include "ground_block.glsl"
 layout(location = 0) in uint batch_number;
 
 struct BatchRecord {
@@ -14,23 +15,10 @@ struct LevelRecord {
   float from, to;
   int spacing, unused;
 };
-layout(std430, binding = 0) readonly buffer Heights { float heights[]; };
 layout(std430, binding = 1) readonly buffer Batches { BatchRecord batches[]; };
 layout(std430, binding = 2) readonly buffer Levels { LevelRecord levels[]; };
 layout(std430, binding = 3) readonly buffer Morphs { float morphs[]; };  // five per patch: inside and sides
 layout(std430, binding = 4) readonly buffer ChunkVertices { uvec2 chunk_vertices[]; };  // sample, height
-
-layout(std140, binding = 1) uniform Ground {
-  ivec2 samples;              // of the grid
-  vec2 cell;                  // metres
-  ivec2 first, last, origin;  // of Frame, for clip levels
-  int side;                   // of the clip levels; 0 for a grid
-  int patch_side;             // cells; 0 without patches or nodes that morph
-  vec3 morph_eye;             // metres
-  int morph_ranges;           // levels of morphing nodes; 0 without
-};
-
-float sample_at(ivec2 at) { return heights[at.y * samples.x + at.x]; }
 
 float between(float a, float b, float share) { return clamp(a + (b - a) * share, min(a, b), max(a, b)); }
 

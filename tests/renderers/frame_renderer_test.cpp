@@ -142,9 +142,10 @@ TEST_P(FrameRendererTest, SendsTheBytesThatTheFrameSaysAndTheyAreEnough) {
     if (step == 4) lod->tune(knob.finest);
     const View view = walk(field_, static_cast<float>(step) / 10);
     const Frame& frame = lod->update(view);
+    const std::size_t per_batch =
+        frame.patches.empty() ? kBytesPerBatch * frame.batches.size() : kBytesPerPatch * frame.patches.size();
     EXPECT_EQ(frame.stats.bytes_commands,
-              kBytesPerBatch * frame.batches.size() +
-                  kBytesPerClipLevel * (frame.clip_levels.size() + frame.morph_ranges.size()));
+              per_batch + kBytesPerClipLevel * (frame.clip_levels.size() + frame.morph_ranges.size()));
     renderer.upload(frame);
     renderer.draw_uploaded(view, style_);
     // The first frame is sent whole; a clipmap's arrays are one row and one column larger than the windows,
