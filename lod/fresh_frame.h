@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lod/lod.h"
@@ -18,6 +19,9 @@ class FreshFrame {
   // Starts the next frame, without indices.
   void begin();
   void add_corner(std::uint32_t vertex) { indices_.push_back(vertex); }
+  void add_corners(std::span<const std::uint32_t> vertices) {
+    indices_.insert(indices_.end(), vertices.begin(), vertices.end());
+  }
   // Uploads the edited heights and the indices from the first on that differs from the last frame's.
   // O(indices)
   const Frame& finish(std::size_t changes);

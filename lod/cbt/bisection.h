@@ -12,6 +12,17 @@
 
 namespace terrabench::cbt {
 
+// A triangle and the one across its hypotenuse, with which it is split and merged.
+struct Diamond {
+  NodeId node = 0, across = 0;  // across: 0 at the border
+  rtin::Triangle triangle{};    // of the node
+
+  Diamond mirrored() const {
+    const auto& [a, b, c] = triangle;
+    return {across, node, {b, a, a + b - c}};
+  }
+};
+
 // A node, its triangle, and the nodes of the same level across its three sides: from a to b (the hypotenuse),
 // b to c and c to a. Each of these is 0 at the border.
 struct Place {
@@ -19,6 +30,7 @@ struct Place {
   rtin::Triangle triangle;
   NodeId across = 0, beside_b = 0, beside_a = 0;
 
+  Diamond diamond() const { return {node, across, triangle}; }
   // The left half shares the leg at a, the right half that at b; legs of two neighbours share the apex.
   Place half(bool right) const {
     const auto [left_half, right_half] = triangle.halves();

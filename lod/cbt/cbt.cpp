@@ -4,11 +4,12 @@
 
 #include <algorithm>
 
+#include "lod/cbt/leaf_walk.h"
 #include "terrain/memory.h"
 
 namespace terrabench {
 
-using cbt::NodeId, cbt::Place;
+using cbt::Diamond, cbt::NodeId, cbt::Place;
 using rtin::Triangle;
 
 namespace {
@@ -28,15 +29,17 @@ struct Cbt::Criterion {
   Frustum frustum;
   float cell;  // the longer side of one, for lengths of edges; 0: by error
 
-  bool wants_split(const Triangle& t) const {
+  // The same for both triangles of a diamond.
+  bool is_coarse(const Triangle& t) const {
     if (!t.splits()) return false;
     const rtin::Nested& nested = errors.at(t.middle());
     const glm::dvec3 middle = errors.position(t.middle());
-    const bool coarse = cell > 0 ? cell * glm::distance(glm::dvec2(t.a), glm::dvec2(t.b)) >
-                                       bound.length(middle, nested.radius)
-                                 : nested.error > bound.allow(middle, nested.radius);
-    return coarse && frustum.see(errors.box(t)) != Sight::kOutside;
+    return cell > 0
+               ? cell * glm::distance(glm::dvec2(t.a), glm::dvec2(t.b)) > bound.length(middle, nested.radius)
+               : nested.error > bound.allow(middle, nested.radius);
   }
+  // The triangle must be split or split further.
+  bool is_in_view(const Triangle& t) const { return frustum.see(errors.box(t)) != Sight::kOutside; }
 };
 
 std::span<const ParameterSpec> Cbt::parameters() {
@@ -79,108 +82,143 @@ const Frame& Cbt::update(const View& view) {
     changes += apply();
   }
   frame_.begin();
-  for (NodeId k = 0; k < bisection_.roots(); ++k)
-    draw(bisection_.at(bisection_.root(k)), Frustum::kAllPlanes, criterion.frustum);
+  draw(criterion.frustum);
   return frame_.finish(changes);
 }
 
+// Calls make(first, last, part) for ranges of leaves, in parallel.
+template <class Make>
+void Cbt::make_parts(const Make& make) {
+  constexpr std::size_t kMost = 64, kLeaves = 512;
+  const std::size_t leaves = tree_.leaves();
+  parts_.resize(std::max(parts_.size(), std::clamp<std::size_t>(leaves / kLeaves, 1, kMost)));
+  const std::size_t parts = parts_.size();
+  tbb::parallel_for(std::size_t{0}, parts,
+                    [&](std::size_t k) { make(leaves * k / parts, leaves * (k + 1) / parts, parts_[k]); });
+}
+
 void Cbt::decide_all(const Criterion& criterion) {
-  decisions_.resize(tree_.leaves());
-  tbb::parallel_for(std::size_t{0}, decisions_.size(), [&](std::size_t number) {
-    std::size_t leaf = number, leaves = decisions_.size();  // at or below the node
-    const auto descend = [&](NodeId node) {
-      const std::size_t left = tree_.sum(2 * node);
-      const bool right = leaf >= left;
-      leaf -= right ? left : 0;
-      leaves = right ? leaves - left : left;
-      return right;
-    };
-    NodeId root = 1;
-    while (cbt::level_of(root) < bisection_.root_level()) root = 2 * root + (descend(root) ? 1 : 0);
-    Place place = bisection_.at(root), parent;
-    while (leaves > 1) {
-      parent = place;
-      place = place.half(descend(place.node));
+  struct State {
+    unsigned planes = Frustum::kAllPlanes;
+    InView in_view{.known = true};
+  };
+  const auto enter = [&](const Triangle& t, State& state) {
+    state.in_view.parent = state.in_view.leaf;
+    if (state.in_view.leaf && state.planes != 0 && t.splits()) {
+      state.in_view.leaf = criterion.frustum.see(errors_.box(t), state.planes) != Sight::kOutside;
     }
-    decisions_[number] = decide(place, parent, criterion);
+    return true;
+  };
+  make_parts([&](std::size_t first, std::size_t last, Part& part) {
+    part.decisions.clear();
+    const auto use = [&](const Place& leaf, const Place& parent, std::size_t of_parent, const State& state) {
+      const Decision decision = decide(leaf.node, leaf.triangle, parent.diamond(), of_parent, state.in_view,
+                                       criterion, [&] { return leaf.across; });
+      if (decision.diamond.node != 0) part.decisions.push_back(decision);
+    };
+    cbt::walk_leaves<State>(bisection_, tree_, first, last, enter, use);
   });
+  decisions_.clear();
+  for (const Part& part : parts_)
+    decisions_.insert(decisions_.end(), part.decisions.begin(), part.decisions.end());
 }
 
 // Within an update, a leaf decides otherwise than before only where the tree has changed.
 void Cbt::decide_touched(const Criterion& criterion) {
-  decisions_.resize(touched_.size());
-  tbb::parallel_for(std::size_t{0}, touched_.size(), [&](std::size_t k) {
-    const NodeId node = touched_[k];
-    const Place parent = bisection_.at(node / 2);
-    const bool is_leaf = tree_.is_split(parent.node) && !tree_.is_split(node);
-    decisions_[k] = is_leaf ? decide(parent.half(node % 2 != 0), parent, criterion) : Decision{};
+  decisions_.assign(2 * touched_.size(), {});
+  tbb::parallel_for(std::size_t{0}, decisions_.size(), [&](std::size_t k) {
+    const auto& [parent, both] = touched_[k / 2];
+    const NodeId leaf = 2 * parent.node + k % 2;
+    if ((k % 2 != 0 && !both) || !tree_.is_split(parent.node) || tree_.is_split(leaf)) return;
+    const auto halves = parent.triangle.halves();
+    decisions_[k] = decide(leaf, k % 2 == 0 ? halves.first : halves.second, parent, tree_.sum(parent.node),
+                           {}, criterion, [&] { return bisection_.at(leaf).across; });
   });
 }
 
-Cbt::Decision Cbt::decide(const Place& leaf, const Place& parent, const Criterion& criterion) const {
-  if (criterion.wants_split(leaf.triangle)) return {leaf.node, false};
-  const bool left = leaf.node % 2 == 0;
-  return left && parent.node != 0 && mergeable(parent, criterion) ? Decision{parent.node, true} : Decision{};
+template <class AcrossLeaf>
+Cbt::Decision Cbt::decide(NodeId leaf, const Triangle& triangle, const Diamond& parent, std::size_t of_parent,
+                          const InView& in_view, const Criterion& criterion,
+                          const AcrossLeaf& across_leaf) const {
+  if (in_view.leaf && criterion.is_coarse(triangle) && (in_view.known || criterion.is_in_view(triangle)))
+    return {{leaf, across_leaf(), triangle}, false};
+  if (leaf % 2 == 0 && mergeable(parent, of_parent, in_view, criterion)) return {parent, true};
+  return {};
 }
 
 // Merges come first: a split undoes those in its way.
 std::size_t Cbt::apply() {
   touched_.clear();
   std::size_t changes = 0;
-  for (const Decision& decision : decisions_) changes += decision.merge ? merge(decision.node) : 0;
+  for (const Decision& decision : decisions_) changes += decision.merge ? merge(decision.diamond) : 0;
   for (const Decision& decision : decisions_)
-    changes += decision.node != 0 && !decision.merge ? split(decision.node) : 0;
+    changes += decision.diamond.node != 0 && !decision.merge ? split(decision.diamond) : 0;
   return changes;
 }
 
-// For one of the two triangles of a diamond only.
-bool Cbt::mergeable(const Place& parent, const Criterion& criterion) const {
-  if (tree_.sum(parent.node) != 2 || criterion.wants_split(parent.triangle)) return false;
-  if (parent.across == 0) return true;
-  return parent.node < parent.across && tree_.sum(parent.across) == 2 &&
-         !criterion.wants_split(bisection_.at(parent.across).triangle);
+// For one of the two triangles of a diamond only, which are both coarse or both not.
+bool Cbt::mergeable(const Diamond& parent, std::size_t leaves, const InView& in_view,
+                    const Criterion& criterion) const {
+  if (leaves != 2) return false;
+  const bool alone = parent.across == 0;
+  if (!alone && (parent.node > parent.across || tree_.sum(parent.across) != 2)) return false;
+  if (!criterion.is_coarse(parent.triangle)) return true;
+  if (in_view.parent && (in_view.known || criterion.is_in_view(parent.triangle))) return false;
+  return alone || !criterion.is_in_view(parent.mirrored().triangle);
 }
 
 // Splits coarser neighbours first, so that the triangle across the hypotenuse is a leaf of the same level.
-std::size_t Cbt::split(NodeId node) {
-  if (tree_.is_split(node)) return 0;
-  const NodeId across = bisection_.at(node).across;
+std::size_t Cbt::split(const Diamond& diamond) {
+  if (tree_.is_split(diamond.node)) return 0;
   std::size_t changes = 0;
-  if (across != 0 && cbt::level_of(across) > bisection_.root_level()) changes += split(across / 2);
-  for (const NodeId half : {node, across}) {
-    if (half == 0) continue;
-    tree_.split(half);
-    touched_.insert(touched_.end(), {2 * half, 2 * half + 1});
+  if (diamond.across != 0 && cbt::level_of(diamond.across) > bisection_.root_level() &&
+      !tree_.is_split(diamond.across / 2)) {
+    changes += split(bisection_.at(diamond.across / 2).diamond());
+  }
+  for (const Diamond& half : {diamond, diamond.mirrored()}) {
+    if (half.node == 0) continue;
+    tree_.split(half.node);
+    touched_.push_back({half, true});
     ++changes;
   }
   return changes;
 }
 
 // The same merge may be decided twice, since two earlier merges may touch one leaf.
-std::size_t Cbt::merge(NodeId node) {
-  if (!tree_.is_split(node)) return 0;
+std::size_t Cbt::merge(const Diamond& diamond) {
+  if (!tree_.is_split(diamond.node)) return 0;
   std::size_t changes = 0;
-  for (const NodeId half : {node, bisection_.at(node).across}) {
+  for (const NodeId half : {diamond.node, diamond.across}) {
     if (half == 0) continue;
     tree_.merge(half);
     ++changes;
     if (cbt::level_of(half) == bisection_.root_level()) continue;
+    const Diamond parent = bisection_.at(half / 2).diamond();
     // The leaf that decides on the parent's diamond.
-    const NodeId parent = half / 2, across = bisection_.at(parent).across;
-    touched_.push_back(2 * (across == 0 ? parent : std::min(parent, across)));
+    const bool other = parent.across != 0 && parent.across < parent.node;
+    touched_.push_back({other ? parent.mirrored() : parent, false});
   }
   return changes;
 }
 
-void Cbt::draw(const Place& place, unsigned planes, const Frustum& frustum) {
-  const Triangle& t = place.triangle;
-  if (t.splits() && planes != 0 && frustum.see(errors_.box(t), planes) == Sight::kOutside) return;
-  if (tree_.is_split(place.node)) {
-    draw(place.half(false), planes, frustum);
-    draw(place.half(true), planes, frustum);
-  } else if (const rtin::Lattice& lattice = errors_.lattice(); lattice.over_ground(t)) {
-    for (const glm::ivec2 corner : {t.a, t.b, t.c}) frame_.add_corner(lattice.vertex(corner));
-  }
+void Cbt::draw(const Frustum& frustum) {
+  struct State {
+    unsigned planes = Frustum::kAllPlanes;
+  };
+  const rtin::Lattice& lattice = errors_.lattice();
+  const auto enter = [&](const Triangle& t, State& state) {
+    return !t.splits() || state.planes == 0 || frustum.see(errors_.box(t), state.planes) != Sight::kOutside;
+  };
+  make_parts([&](std::size_t first, std::size_t last, Part& part) {
+    part.corners.clear();
+    const auto use = [&](const Place& leaf, const Place&, std::size_t, const State&) {
+      const Triangle& t = leaf.triangle;
+      if (!lattice.over_ground(t)) return;
+      for (const glm::ivec2 corner : {t.a, t.b, t.c}) part.corners.push_back(lattice.vertex(corner));
+    };
+    cbt::walk_leaves<State>(bisection_, tree_, first, last, enter, use);
+  });
+  for (const Part& part : parts_) frame_.add_corners(part.corners);
 }
 
 Memory Cbt::memory() const {
@@ -189,6 +227,8 @@ Memory Cbt::memory() const {
   memory += frame_.memory();
   memory += tree_.memory();
   memory += index_memory(decisions_, touched_);
+  memory.index += heap_bytes(parts_.data());
+  for (const Part& part : parts_) memory += index_memory(part.decisions, part.corners);
   return memory;
 }
 
