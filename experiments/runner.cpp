@@ -196,8 +196,7 @@ class Session {
         (plan_.jobs > 1 && !experiment.timed(cases_[i].at) ? untimed : alone).push_back(i);
       }
     }
-    if (plan_.seconds && left_.expected() > 0)
-      fmt::print(stderr, "this takes about {} on two cores\n", duration(left_.expected()));
+    fmt::print(stderr, "{}", left_.forecast());
     const auto output = progress_output();
     measure_in_processes(untimed, plan_.jobs, Progress::Output::kSilent);
     for (const std::size_t i : untimed) left_.done(weight(i));
@@ -232,13 +231,13 @@ class Session {
   void measure_one(std::size_t i, Progress::Output output, bool beside_others = false) {
     const Stopwatch watch;
     Record record = outcome_of(plan_, cases_[i], begin(i), output);
-    const double seconds = watch.seconds();
+    const double seconds = record.seconds = watch.seconds();
     keep(record, i);
     fmt::print(stderr, "[{}/{}] {}: {:.2f} s{}{}\n", i + 1, cases_.size(), title(i), seconds,
                record.outcome == CaseOutcome::kMeasured
                    ? ""
                    : fmt::format(", {}: {}", name(record.outcome), record.reason),
-               plan_.seconds && !beside_others ? left_.text(weight(i)) : "");
+               beside_others ? "" : left_.text(weight(i)));
   }
 
   // As a failure if the record cannot be written as it is.
@@ -283,7 +282,7 @@ class Session {
   }
 
   Record begin(std::size_t i) const { return begin_record(plan_, cases_[i], provenance_.id); }
-  double weight(std::size_t i) const { return plan_.seconds ? plan_.seconds(cases_[i]) : 0; }
+  double weight(std::size_t i) const { return expected_seconds(plan_, cases_[i]); }
   std::string title(std::size_t i) const {
     return fmt::format("{} {}", cases_[i].experiment->id, cases_[i].at.name);
   }

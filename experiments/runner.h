@@ -33,7 +33,8 @@ struct RunPlan {
   int jobs = 1;                       // untimed cases beside each other, with threads ÷ jobs threads each
   std::vector<std::string> command;   // argv, for the provenance
   std::string terrain_checksum = {};  // of the terrains; to resume: cases of another content are not kept
-  // Estimated seconds per case, for printing the total and the remaining time. Empty: neither is printed.
+  // Estimated seconds per case, 0 if not known, for printing the total and the remaining time. Empty: those
+  // of the reference run.
   std::function<double(const PlannedCase&)> seconds = {};
 };
 
@@ -43,6 +44,9 @@ inline constexpr ExitCode kCasesFailed{5};
 // The cases a plan names, in the registry's order. Throws usage_error when a pattern matches nothing (with
 // the nearest name), the profile measures none of the experiments, or an assignment fits no parameter of any.
 std::vector<PlannedCase> plan_cases(const RunPlan&);
+
+// That a case will add to the run; 0: not known.
+double expected_seconds(const RunPlan&, const PlannedCase&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or
 // cannot be measured is recorded as such, with the reason, and does not end the run: kCasesFailed then says

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/commands/commands.h"
+#include "experiments/time_left.h"
 #include "terrain/number.h"
 
 namespace terrabench {
@@ -25,11 +26,14 @@ void parse_shard(const std::string& text, RunPlan& plan) {
 
 void print_cases(const RunPlan& plan) {
   const std::vector<PlannedCase> cases = plan_cases(plan);
+  TimeLeft time;
   for (const PlannedCase& planned : cases) {
     fmt::print("{} '{}'{}\n", planned.experiment->id, planned.at.name,
                planned.experiment->timed(planned.at) ? ", timed" : "");
+    time.expect(expected_seconds(plan, planned));
   }
-  fmt::print("{} case{}; nothing was measured\n", cases.size(), cases.size() == 1 ? "" : "s");
+  fmt::print("{} case{}; nothing was measured\n{}", cases.size(), cases.size() == 1 ? "" : "s",
+             time.forecast());
 }
 
 }  // namespace

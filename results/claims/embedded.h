@@ -16,5 +16,7 @@ std::span<const EmbeddedFile> embedded_script();
 
 // results/reference/report/findings.json
 std::span<const EmbeddedFile> embedded_findings();
+// results/reference/durations.csv
+std::span<const EmbeddedFile> embedded_durations();
 
 }  // namespace terrabench

@@ -102,6 +102,7 @@ struct Record {
   std::vector<RecordedFigure> figures;
   CaseOutcome outcome = CaseOutcome::kMeasured;
   std::string reason = {};  // why it was not measured; empty if it was
+  double seconds = 0;       // that the case took, pictures included; 0: not known
   // Metrics that have no value, such as an error relative to a relief of 0: name, reason.
   std::vector<std::pair<std::string, std::string>> undefined = {};
 

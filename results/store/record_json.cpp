@@ -117,6 +117,12 @@ class Fields {
     require(value.is_number_unsigned(), fmt::format("'{}' is not a natural number", name));
     return value.get<std::uint64_t>();
   }
+  double positive(const char* name) {
+    const Json& value = get(name);
+    require(value.is_number() && value.get<double>() > 0 && std::isfinite(value.get<double>()),
+            fmt::format("'{}' is not a positive number", name));
+    return value.get<double>();
+  }
   bool flag(const char* name) {
     const Json& value = get(name);
     require(value.is_boolean(), fmt::format("'{}' is neither true nor false", name));
@@ -277,6 +283,7 @@ Record record_from(Fields& fields, std::string& warning) {
     record.parameters.emplace_back(name, value_from(value, name));
   }
   if (fields.has("overrides")) record.overrides = fields.texts("overrides");
+  if (fields.has("seconds")) record.seconds = fields.positive("seconds");
   for (const Json& metric : fields.array("metrics")) record.metrics.push_back(metric_from(metric, warning));
   for (const Json& figure : fields.array("figures")) record.figures.push_back(figure_from(figure, warning));
   read_absences(fields, record);
@@ -370,6 +377,7 @@ std::string to_line(const Record& record) {
              {"figures", figures}});
   if (!record.terrain_notes.empty()) line["terrain_notes"] = record.terrain_notes;
   if (!record.overrides.empty()) line["overrides"] = record.overrides;
+  if (record.seconds > 0) line["seconds"] = std::round(1000 * record.seconds) / 1000;
   if (record.outcome != CaseOutcome::kMeasured) {
     line["outcome"] = name(record.outcome);
     line["reason"] = record.reason;

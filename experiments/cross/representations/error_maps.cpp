@@ -38,7 +38,7 @@ std::vector<Case> cases(const RunOptions& options) {
                      {kSpecs,
                       {{"size", std::int64_t{paper ? 513 : 257}},
                        {"builds", std::int64_t{paper ? 120 : 24}},
-                       {"resolution", std::int64_t{128}},
+                       {"resolution", std::int64_t{paper ? 128 : 64}},
                        {"lines", std::int64_t{paper ? 400 : 200}},
                        {"compared", std::int64_t{paper ? 211 : 101}}}},
                      terrain});
