@@ -47,7 +47,7 @@ SetMember member(std::string_view name, std::string_view label, const LodType& t
 void declare_methods() {
   Sets sets;
   for (const RepresentationType& type : representations()) sets["representations"].push_back(member(type));
-  for (const LodType& type : compared_lods())
+  for (const LodType& type : lods())
     sets["lods"].push_back(member(type.name, type.label, type, type.traits.bounds_error));
   for (const Entrant& entrant : entrants())
     sets["entrants"].push_back(

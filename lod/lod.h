@@ -2,7 +2,6 @@
 // mesh of the last frame. Methods do not measure themselves; meters/ measures error, cracks and popping.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,7 +67,6 @@ struct LodTraits {
   bool conforming = true;     // promises no cracks
   bool bounds_error = false;  // promises a screen-space error of at most the knob, in pixels
   bool near_surface = false;  // draws LodGround::near_surface
-  bool compared = true;  // false: comparisons leave it out, since the reference run has no measurement of it
 };
 
 // Another value of one option, with which a method is compared as if it were a method of its own.
@@ -106,13 +104,12 @@ struct LodType {
 
 // The registry, one entry per method: registry.cpp.
 std::span<const LodType> lods();
-std::vector<std::reference_wrapper<const LodType>> compared_lods();  // LodTraits::compared
-const LodType& lod(std::string_view name);                           // throws unknown_name
+const LodType& lod(std::string_view name);  // throws unknown_name
 // Adds a method of another program, which then takes part in everything. To be called before anything else
 // is: references to entries do not stay valid. Throws usage_error for a name that is taken.
 void add_lod(const LodType&);
 
-// What comparisons compare: every compared method with its defaults, then every variant of one.
+// What comparisons compare: every method with its defaults, then every variant of one.
 struct Entrant {
   std::string name;             // in case names
   std::string method, options;  // options: such as "geomipmap.morph=true"; empty: the defaults

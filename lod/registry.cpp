@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <vector>
 
 #include "lod/brute_force/brute_force.h"
@@ -61,6 +59,26 @@ std::vector<LodType>& table() {
        Roam::build,
        {},
        kByDistanceSquared},
+      {"rtin",
+       "RTIN",
+       "right triangles bisected anew from the roots in each frame, by nested exact errors",
+       "Evans et al. 2001",
+       {.conforming = true, .bounds_error = true},
+       Rtin::knob(),
+       Rtin::parameters(),
+       "",
+       Rtin::build,
+       kByMiddle,
+       kByDistanceSquared},
+      {"cbt",
+       "CBT",
+       "right triangles kept as bits between frames, split and merged by one level per pass",
+       "Dupuy 2020",
+       {.conforming = true, .bounds_error = true},
+       Cbt::knob(),
+       Cbt::parameters(),
+       "",
+       Cbt::build},
       {"geomipmap",
        "geomipmap",
        "patches at the coarsest level within the error bound, stitched to their neighbours",
@@ -72,11 +90,22 @@ std::vector<LodType>& table() {
        GeoMipMap::build,
        kMorphing,
        kAllPatches},
+      {"tessellated",
+       "tessellated patches",
+       "square patches that the GPU's tessellator divides, by a factor for each side",
+       "Cantlay 2011",
+       {.conforming = true, .bounds_error = true},
+       Tessellated::knob(),
+       Tessellated::parameters(),
+       "",
+       Tessellated::build,
+       kByLength,
+       kAllInView},
       {"cdlod",
        "CDLOD",
        "nodes of a quadtree by distance, whose vertices morph to the next coarser level",
        "Strugar 2009",
-       {.conforming = true, .bounds_error = true, .compared = false},
+       {.conforming = true, .bounds_error = true},
        Cdlod::knob(),
        Cdlod::parameters(),
        "morph=false",
@@ -86,7 +115,7 @@ std::vector<LodType>& table() {
        "chunked LOD",
        "a quadtree of static meshes, by their errors on the screen, with skirts over the cracks between",
        "Ulrich 2002",
-       {.conforming = false, .bounds_error = true, .compared = false},
+       {.conforming = false, .bounds_error = true},
        Chunked::knob(),
        Chunked::parameters(),
        "skirts=false",
@@ -125,37 +154,6 @@ std::vector<LodType>& table() {
        Mrbsp::build,
        kByArea,
        kByDistance},
-      {"rtin",
-       "RTIN",
-       "right triangles bisected anew from the roots in each frame, by nested exact errors",
-       "Evans et al. 2001",
-       {.conforming = true, .bounds_error = true, .compared = false},
-       Rtin::knob(),
-       Rtin::parameters(),
-       "",
-       Rtin::build,
-       kByMiddle,
-       kByDistanceSquared},
-      {"cbt",
-       "CBT",
-       "right triangles kept as bits between frames, split and merged by one level per pass",
-       "Dupuy 2020",
-       {.conforming = true, .bounds_error = true, .compared = false},
-       Cbt::knob(),
-       Cbt::parameters(),
-       "",
-       Cbt::build},
-      {"tessellated",
-       "tessellated patches",
-       "square patches that the GPU's tessellator divides, by a factor for each side",
-       "Cantlay 2011",
-       {.conforming = true, .bounds_error = true, .compared = false},
-       Tessellated::knob(),
-       Tessellated::parameters(),
-       "",
-       Tessellated::build,
-       kByLength,
-       kAllInView},
   };
   return types;
 }
@@ -172,19 +170,12 @@ void add_lod(const LodType& type) {
   table().push_back(type);
 }
 
-std::vector<std::reference_wrapper<const LodType>> compared_lods() {
-  std::vector<std::reference_wrapper<const LodType>> compared;
-  std::ranges::copy_if(lods(), std::back_inserter(compared),
-                       [](const LodType& type) { return type.traits.compared; });
-  return compared;
-}
-
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
-  for (const LodType& type : compared_lods())
+  for (const LodType& type : lods())
     all.push_back({std::string(type.name), std::string(type.name), "", std::string(type.label),
                    type.traits.bounds_error});
-  for (const LodType& type : compared_lods()) {
+  for (const LodType& type : lods()) {
     for (const LodVariant& variant : type.variants) {
       all.push_back({fmt::format("{}_{}", type.name, variant.name), std::string(type.name),
                      fmt::format("{}.{}", type.name, variant.option),

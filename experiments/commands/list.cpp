@@ -66,7 +66,6 @@ Json list_lods() {
                     {"conforming", type.traits.conforming},
                     {"bounds_error", type.traits.bounds_error},
                     {"near_surface", type.traits.near_surface},
-                    {"compared", type.traits.compared},
                     {"variants", std::move(variants)},
                     {"knob",
                      {{"name", type.knob.name},

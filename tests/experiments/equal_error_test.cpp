@@ -244,7 +244,7 @@ TEST_P(EqualError, CountsAreTheSameForAnyNumberOfThreads) {
 
 std::vector<std::string_view> names() {
   std::vector<std::string_view> all;
-  for (const LodType& type : compared_lods()) all.push_back(type.name);
+  for (const LodType& type : lods()) all.push_back(type.name);
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(EachMethod, EqualError, ::testing::ValuesIn(names()),

@@ -153,7 +153,7 @@ TEST(ScaleCases, NameEveryStructureAndMethod) {
   for (const RepresentationType& type : representations()) {
     EXPECT_TRUE(names.contains("heights/" + std::string(type.name))) << type.name;
   }
-  for (const LodType& type : compared_lods()) EXPECT_TRUE(names.contains("lods/" + std::string(type.name)));
+  for (const LodType& type : lods()) EXPECT_TRUE(names.contains("lods/" + std::string(type.name)));
 }
 
 // The whole experiment on a few small sizes, and with budgets that leave out all but the first.
@@ -295,7 +295,7 @@ TEST(Scale, AWindowOnGrowingGroundHoldsTheSame) {
 
 // On smaller ground much of what is in view lies beyond the edge.
 TEST(Scale, MethodsAreBuiltOnSmallerGroundThanTheyWalkOn) {
-  for (const LodType& type : compared_lods()) {
+  for (const LodType& type : lods()) {
     const Record record = measured(fmt::format("lods/{}", type.name).c_str(),
                                    {{"largest", std::int64_t{1025}}, {"seconds", 1e6}});
     EXPECT_THAT(samples(record, "build_smallest"), ElementsAre(129 * 129)) << type.name;

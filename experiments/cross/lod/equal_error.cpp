@@ -97,7 +97,7 @@ void draw_wires(Flight& flight, double pixels, const std::string& options, GlCon
   const View& view = flight.views[last];
   std::vector<figures::Panel> panels;
   int sky = view.height;
-  for (const LodType& type : compared_lods()) {
+  for (const LodType& type : lods()) {
     const ConfiguredMethod method = configured(type.name, options);
     const Tuned tuned = tune_to(flight, method, pixels, progress);
     const std::unique_ptr<Lod> lod = method.build(flight.ground(), progress);

@@ -139,7 +139,7 @@ void record(const std::vector<std::vector<double>>& repetitions,
 void measure_ground(Flight& flight, const Case& at, const std::string& key, GlContext& context,
                     Recorder& recorder, Progress& progress, Curves& curves) {
   std::vector<std::unique_ptr<Measured>> methods;
-  for (const LodType& type : compared_lods()) {
+  for (const LodType& type : lods()) {
     if (auto one = prepare(type, flight, at, key, context, recorder, progress)) {
       methods.push_back(std::move(one));
     }

@@ -69,7 +69,7 @@ std::vector<Case> cases(const RunOptions&) {
   };
   for (const std::string_view one : scaled_structures(false)) add("heights", one, 129, 16385);
   for (const std::string_view one : scaled_structures(true)) add("solids", one, 32, 1024);
-  for (const LodType& one : compared_lods()) add("lods", one.name, 129, 16385);
+  for (const LodType& one : lods()) add("lods", one.name, 129, 16385);
   for (const std::string_view one : {kWholeMetres, kUnrounded}) add("flow", one, 129, 16385);
   return cases;
 }
