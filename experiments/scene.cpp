@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kSteps = 64;      // samples of a column
 constexpr int kFineSteps = 16;  // and again of the step that holds its surface
-constexpr float kFar = 4;       // of the far plane, in sides of the ground: water reaches beyond the ground
 
 // The highest sample that is solid, or -1.
 int highest_solid(std::span<const Material> column) {
@@ -110,11 +109,6 @@ Heightfield scene_heights(const TerrainSource& source, int samples, Progress& pr
   return field;
 }
 
-Bounds bounds_of(const Heightfield& field) {
-  const HeightRange range = height_range(field);
-  return {{0, range.lowest, 0}, {field.extent_x(), range.highest, field.extent_z()}};
-}
-
 View scene_view(const LandscapeStyle& style, const Heightfield& field, int width, int height) {
   const glm::vec3 size = style.ground.size();
   const float extent = std::max(size.x, size.z);
@@ -128,20 +122,8 @@ View scene_view(const LandscapeStyle& style, const Heightfield& field, int width
   view.eye.y = base + 0.03F * extent + 0.15F * size.y;
   view.target = {0.47F * size.x, base + 0.1F * size.y, 0.3F * size.z};
   view.near = 2e-4F * extent;
-  view.far = std::max(kFar * extent, static_cast<float>(far_plane(view.eye, style.ground)));
+  view.far = std::max(kFarSides * extent, static_cast<float>(far_plane(view.eye, style.ground)));
   return view;
-}
-
-void set_depth_planes(View& view, const Heightfield& field, const Bounds& ground, bool alone) {
-  // Shares of the far plane's distance. With the first, OpenGL's depth has relative errors of at most 0.6 %.
-  // They are larger for an eye so low that it would see through the ground before its feet.
-  constexpr float kNear = 1e-5F, kNearest = 1e-7F;
-  view.far = std::max({view.far, kFar * std::max(field.extent_x(), field.extent_z()),
-                       static_cast<float>(far_plane(view.eye, ground))});
-  view.near = kNear * view.far;
-  const float above = view.eye.y - field.sample(view.eye.x, view.eye.z);
-  if (above > 0) view.near = std::clamp(0.25F * above, kNearest * view.far, view.near);
-  if (alone) view.near = std::max(view.near, 0.99F * depth_range(view, ground).nearest);
 }
 
 void refuse_empty(const View& view, const Bounds& ground) {

@@ -24,18 +24,9 @@ Heightfield surface_heights(const Solid&, int samples, Progress&);
 // Throws bad_input for ground without any heights and usage_error for fewer than 2 × 2 samples.
 Heightfield scene_heights(const TerrainSource&, int samples, Progress&);
 
-// The box around a field. O(samples).
-Bounds bounds_of(const Heightfield&);
-
 // A view from the south over the middle of the ground, as a picture without other wishes has: above the water
 // and the ground before it.
 View scene_view(const LandscapeStyle&, const Heightfield&, int width, int height);
-
-// Near and far planes for an eye at any place over or beside ground of any size, whose bounds are given. The
-// far plane lies behind the whole ground. The near plane is nearer than the ground that a level look shows
-// before its feet. If nothing but the ground is drawn (`alone`), it lies no nearer than the bounds begin;
-// water and grass may.
-void set_depth_planes(View&, const Heightfield&, const Bounds&, bool alone);
 
 // Throws usage_error for a picture without any ground: says where that is.
 [[noreturn]] void refuse_empty(const View&, const Bounds& ground);

@@ -30,4 +30,21 @@ DepthRange depth_range(const View& view, const Bounds& bounds) {
   return range;
 }
 
+Bounds bounds_of(const Heightfield& field) {
+  const HeightRange range = height_range(field);
+  return {{0, range.lowest, 0}, {field.extent_x(), range.highest, field.extent_z()}};
+}
+
+void set_depth_planes(View& view, const Heightfield& field, const Bounds& ground, bool alone) {
+  // Shares of the far plane's distance. With the first, OpenGL's depth has relative errors of at most 0.6 %.
+  // They are larger for an eye so low that it would see through the ground before its feet.
+  constexpr float kNear = 1e-5F, kNearest = 1e-7F;
+  view.far = std::max({view.far, kFarSides * std::max(field.extent_x(), field.extent_z()),
+                       static_cast<float>(far_plane(view.eye, ground))});
+  view.near = kNear * view.far;
+  const float above = view.eye.y - field.sample(view.eye.x, view.eye.z);
+  if (above > 0) view.near = std::clamp(0.25F * above, kNearest * view.far, view.near);
+  if (alone) view.near = std::max(view.near, 0.99F * depth_range(view, ground).nearest);
+}
+
 }  // namespace terrabench

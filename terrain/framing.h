@@ -1,6 +1,7 @@
 // What a view needs for an eye at any place: which way is up, and how far the ground reaches.
 #pragma once
 
+#include "terrain/heightfield.h"
 #include "terrain/view.h"
 
 namespace terrabench {
@@ -18,5 +19,17 @@ struct DepthRange {
   float nearest, farthest;
 };
 DepthRange depth_range(const View&, const Bounds&);
+
+// The box around a field. O(samples).
+Bounds bounds_of(const Heightfield&);
+
+// Of the far plane, in sides of the ground: water reaches beyond the ground.
+inline constexpr float kFarSides = 4;
+
+// Near and far planes for an eye at any place over or beside ground of any size, whose bounds are given. The
+// far plane lies behind the whole ground. The near plane is nearer than the ground that a level look shows
+// before its feet. If nothing but the ground is drawn (`alone`), it lies no nearer than the bounds begin;
+// water and grass may.
+void set_depth_planes(View&, const Heightfield&, const Bounds& ground, bool alone);
 
 }  // namespace terrabench

@@ -12,6 +12,7 @@
 #include "experiments/hybrid/grounds.h"
 #include "experiments/near_ground.h"
 #include "experiments/scene.h"
+#include "terrain/framing.h"
 
 namespace terrabench::hybrid {
 namespace {

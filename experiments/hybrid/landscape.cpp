@@ -14,6 +14,7 @@
 #include "experiments/hybrid/pixels.h"
 #include "experiments/scene.h"
 #include "renderers/landscape/textures.h"
+#include "terrain/framing.h"
 
 namespace terrabench::hybrid {
 namespace {

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "experiments/cross/lod/knob_search.h"
 #include "experiments/experiment.h"
 #include "lod/lod.h"
+#include "lod/meters/knob_search.h"
 #include "lod/meters/screen_error.h"
 #include "lod/meters/seen_samples.h"
 #include "terrain/image.h"

@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "experiments/cross/lod/knob_search.h"
 #include "experiments/cross/representations/scenes.h"
+#include "lod/meters/knob_search.h"
 
 namespace terrabench::cross {
 

@@ -1,4 +1,4 @@
-#include "experiments/cross/lod/knob_search.h"
+#include "lod/meters/knob_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-namespace terrabench::cross {
+namespace terrabench {
 namespace {
 
 constexpr double kLongestStride = 4;      // octaves, before the target is bracketed
@@ -90,4 +90,4 @@ Tuned search_knob(const Knob& knob, double target, const std::function<double(do
   return {knob_at(knob, place), error, std::isfinite(error) && error <= target && decided};
 }
 
-}  // namespace terrabench::cross
+}  // namespace terrabench

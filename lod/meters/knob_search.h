@@ -6,7 +6,7 @@
 
 #include "lod/lod.h"
 
-namespace terrabench::cross {
+namespace terrabench {
 
 struct Tuned {
   double knob = 0, error = 0;
@@ -24,4 +24,4 @@ inline constexpr double kKnobSlack = 0.02;
 // refused for being too coarse, minus infinite at those that are refused for being too fine.
 Tuned search_knob(const Knob&, double target, const std::function<double(double)>& error_at);
 
-}  // namespace terrabench::cross
+}  // namespace terrabench
