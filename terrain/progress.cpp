@@ -5,16 +5,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <tuple>
+#include <utility>
 
 #include "terrain/duration.h"
 #include "terrain/error.h"
+#include "terrain/progress_listener.h"
 
 namespace terrabench {
 namespace {
 
 constexpr std::int64_t kTerminalInterval = 100, kLineInterval = 5000;  // milliseconds between two lines
 
+ProgressListener listener;
+
 }  // namespace
+
+void listen_to_progress(ProgressListener to) { listener = std::move(to); }
 
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
@@ -51,6 +57,10 @@ void Progress::show(std::uint64_t done) {
   if (elapsed < due || !next_show_.compare_exchange_strong(due, elapsed + interval)) return;
   const double share =
       steps_ == 0 ? 0 : std::min(1.0, static_cast<double>(done) / static_cast<double>(steps_));
+  if (output_ == Output::kTerminal && listener) {
+    listener(what_, share);
+    return;
+  }
   const double left = share > 0 ? static_cast<double>(elapsed) / 1000 * (1 - share) / share : 0;
   const std::string line = fmt::format("{}: {:.0f} %, about {} left", what_, share * 100, duration(left));
   std::fprintf(stderr, output_ == Output::kTerminal ? "\r\033[K%s" : "%s\n", line.c_str());
@@ -59,7 +69,7 @@ void Progress::show(std::uint64_t done) {
 
 void Progress::end() {
   std::ignore = done_.load(std::memory_order_acquire);
-  if (output_ == Output::kTerminal && !what_.empty()) std::fputs("\r\033[K", stderr);
+  if (output_ == Output::kTerminal && !listener && !what_.empty()) std::fputs("\r\033[K", stderr);
   what_.clear();
 }
 

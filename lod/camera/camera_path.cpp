@@ -57,7 +57,7 @@ class Flight {
         ground_(ground),
         extent_(ground.extent_x(), ground.extent_z()),
         scale_(scale_of(path, extent_)),
-        least_height_(std::min(kEyeHeight, kEyeShare * std::max(extent_.x, extent_.y))) {
+        least_height_(least_eye_height(ground)) {
     const HeightRange heights = height_range(ground);
     box_ = {{0, heights.lowest, 0}, {extent_.x, heights.highest, extent_.y}};
     double time = 0;
@@ -95,17 +95,11 @@ class Flight {
 
   glm::dvec2 place(const glm::dvec2& at) const { return path_.origin * extent_ + at * scale_.place; }
 
-  double ground_at(const glm::dvec2& at) const {
-    const glm::dvec2 inside = glm::clamp(at, glm::dvec2(0), extent_);
-    return ground_.sample(std::min(static_cast<float>(inside.x), ground_.extent_x()),
-                          std::min(static_cast<float>(inside.y), ground_.extent_z()));
-  }
-
   double eye_height(const glm::dvec2& plan, const Keyframe& from, const Keyframe& to, double share) const {
-    const double least = ground_at(plan) + least_height_;
+    const double least = ground_under(ground_, plan) + least_height_;
     if (path_.kind != CameraPath::Kind::kFly) return least;
     const auto above = [&](const Keyframe& key) {
-      return ground_at(place(key.at)) + key.height * scale_.height;
+      return ground_under(ground_, place(key.at)) + key.height * scale_.height;
     };
     return std::max(glm::mix(above(from), above(to), share), least);
   }
@@ -118,7 +112,7 @@ class Flight {
     }
     if (path_.look == CameraPath::Look::kPlace) {
       const glm::dvec2 plan = glm::mix(place(from.look_at), place(to.look_at), share);
-      return glm::normalize(glm::dvec3(plan.x, ground_at(plan), plan.y) - eye);
+      return glm::normalize(glm::dvec3(plan.x, ground_under(ground_, plan), plan.y) - eye);
     }
     const glm::dvec2 ahead = glm::normalize(to.at - from.at);
     return {ahead.x, 0, ahead.y};
@@ -149,6 +143,17 @@ class Flight {
 };
 
 }  // namespace
+
+double least_eye_height(const Heightfield& ground) {
+  const auto side = static_cast<double>(std::max(ground.extent_x(), ground.extent_z()));
+  return std::min(kEyeHeight, kEyeShare * side);
+}
+
+double ground_under(const Heightfield& ground, const glm::dvec2& at) {
+  const glm::dvec2 inside = glm::clamp(at, glm::dvec2(0), glm::dvec2(ground.extent_x(), ground.extent_z()));
+  return static_cast<double>(ground.sample(std::min(static_cast<float>(inside.x), ground.extent_x()),
+                                           std::min(static_cast<float>(inside.y), ground.extent_z())));
+}
 
 std::vector<View> views(const CameraPath& path, const Heightfield& ground) {
   check_ground(ground);

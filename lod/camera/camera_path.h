@@ -47,12 +47,19 @@ struct CameraPath {
 // Throws bad_input, with `origin` and the line, for anything but a path as above.
 CameraPath parse_camera_path(std::string_view text, std::string name, const std::string& origin);
 CameraPath read_camera_path(const std::filesystem::path&);
+// The file from which parse_camera_path() reads the same path: every number in full.
+std::string to_toml(const CameraPath&);
 
 // The paths in paths/, compiled in.
 std::span<const CameraPath> camera_paths();
 // A compiled-in path, or the file if the name ends in ".toml".
 CameraPath open_camera_path(const std::string& name);
 const CameraPath& camera_path(std::string_view name);  // throws unknown_name
+
+// The least height of an eye above the ground, metres: 1.8 m, and less on ground of less than 18 m.
+double least_eye_height(const Heightfield&);
+// The ground's height under an eye, metres; beyond the ground, at the nearest point of its border. O(1)
+double ground_under(const Heightfield&, const glm::dvec2& at);
 
 // One view per frame, from the first keyframe on. The unit "extent" is the ground's longer side if all
 // keyframes then stand on the ground, as on ground that is about square. Otherwise each side is the unit

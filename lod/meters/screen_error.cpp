@@ -5,9 +5,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace terrabench {
 namespace {
+
+// In pixels, between two heights of a sample, neither NaN.
+double between(const Projector& project, const SeenSamples& seen, int i, int j, float a, float b) {
+  const double x = static_cast<float>(i) * seen.cell_x(), z = static_cast<float>(j) * seen.cell_z();
+  return a == b ? 0 : project.pixels_between({x, a, z}, {x, b, z});
+}
 
 struct Row {
   std::size_t first = 0;  // in `pixels`
@@ -62,8 +69,7 @@ Deviation measure(const SeenSamples& seen, Seen least, const From& from, const T
         ++row.undrawn;
         continue;
       }
-      const double x = static_cast<float>(i) * seen.cell_x(), z = static_cast<float>(j) * seen.cell_z();
-      const double distance = a == b ? 0 : project.pixels_between({x, a, z}, {x, b, z});
+      const double distance = between(project, seen, i, j, a, b);
       pixels[row.first + row.samples++] = static_cast<float>(distance);
       row.sum += distance;
     }
@@ -84,6 +90,22 @@ ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& grou
   return measure(
       seen, [&](int i, int j) { return ground.at(i, j); }, [&](int i, int j) { return drawn.at(i, j); },
       pool);
+}
+
+std::vector<float> visible_errors(const SurfaceRaster& drawn, const Heightfield& ground,
+                                  const SeenSamples& seen) {
+  assert(drawn.width() == seen.width() && drawn.depth() == seen.depth());
+  const Projector project(seen.view());
+  std::vector<float> errors(ground.heights.size(), std::numeric_limits<float>::quiet_NaN());
+  tbb::parallel_for(0, seen.depth(), [&](int j) {
+    for (int i = 0; i < seen.width(); ++i) {
+      if (seen.at(i, j) != Seen::kVisible || !drawn.is_drawn(i, j)) continue;
+      errors[static_cast<std::size_t>(j) * static_cast<std::size_t>(seen.width()) +
+             static_cast<std::size_t>(i)] =
+          static_cast<float>(between(project, seen, i, j, ground.at(i, j), drawn.at(i, j)));
+    }
+  });
+  return errors;
 }
 
 ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,

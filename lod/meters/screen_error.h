@@ -54,6 +54,10 @@ struct ScreenDeviation {
 ScreenDeviation screen_error(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples& seen,
                              Distribution* pool = nullptr);
 
+// The errors that screen_error() sums up, one per sample of the ground, row by row: NaN where the sample is
+// hidden or out of view, or nothing is drawn.
+std::vector<float> visible_errors(const SurfaceRaster& drawn, const Heightfield& ground, const SeenSamples&);
+
 // Between the surfaces of two consecutive frames, both in the later view, so that only changes of the surface
 // count and not the camera's motion.
 ScreenDeviation popping(const SurfaceRaster& before, const SurfaceRaster& after, const SeenSamples& seen,

@@ -306,5 +306,22 @@ TEST(CameraPath, RefusesPathsWithoutEnd) {
   EXPECT_THROW(views(path, flat(9, 9)), Error);
 }
 
+TEST(CameraPath, WrittenAndReadAgainGivesTheSameViews) {
+  const Heightfield ground = hilly(60, 45);
+  std::vector<CameraPath> all(camera_paths().begin(), camera_paths().end());
+  all.push_back(parse(kWalk));
+  for (const CameraPath& path : all) {
+    const CameraPath read = parse(to_toml(path));
+    EXPECT_EQ(to_toml(read), to_toml(path)) << path.name;
+    const std::vector<View> a = views(path, ground), b = views(read, ground);
+    ASSERT_EQ(a.size(), b.size()) << path.name;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].eye, b[k].eye) << path.name << " " << k;
+      EXPECT_EQ(a[k].target, b[k].target) << path.name << " " << k;
+      EXPECT_EQ(a[k].near, b[k].near) << path.name << " " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace terrabench::test
