@@ -23,7 +23,6 @@ class GlContext {
 
   // Takes the place of the thread's current context. Throws environment_error if the context was lost.
   void make_current();
-  virtual void present() {}  // shows the picture, where there is a window; never waits for the display
 
   // Before objects of this context are deleted: makes it current, or, if it was lost, leaves the thread
   // without a current context, so that deleting them does nothing.

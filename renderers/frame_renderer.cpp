@@ -16,6 +16,8 @@
 namespace terrabench {
 namespace {
 
+constexpr GLuint kPaintUnit = 2;  // in shaders/relief.glsl
+
 // During its life, triangles seen from below are culled. They would be visible only at ridges, where rounding
 // can let the slope behind win a depth test.
 struct CullUndersides {
@@ -67,16 +69,39 @@ void set_style(const Program& program, const View& view, const FrameStyle& style
   glProgramUniform1i(id, uniform(program, "ramp"), 0);
   glProgramUniform1f(id, uniform(program, "exaggeration"), style.shading_exaggeration);
   glProgramUniform1i(id, uniform(program, "facets"), 1);
-  glProgramUniform1i(id, uniform(program, "painted"), 0);
   glProgramUniform1i(id, uniform(program, "flat_fill"), 0);
   glProgramUniform1f(id, uniform(program, "wire_width"), style.wire_width);
   glProgramUniform4f(id, uniform(program, "wire_ink"), 0.05F, 0.05F, 0.06F, style.wire_opacity);
-  if (style.wire_width > 0) {
-    glProgramUniform2f(id, uniform(program, "pixels"), static_cast<float>(view.width),
-                       static_cast<float>(view.height));
-    glProgramUniform1i(id, uniform(program, "all_edges"), 1);
-    glProgramUniform1i(id, uniform(program, "drawn"), 1);
+  glProgramUniform2f(id, uniform(program, "pixels"), static_cast<float>(view.width),
+                     static_cast<float>(view.height));
+  glProgramUniform1i(id, uniform(program, "all_edges"), 1);
+  glProgramUniform1i(id, uniform(program, "drawn"), 1);
+}
+
+// Colours other than those of heights; `ground` is painted over `paint_extent` metres.
+struct Colours {
+  glm::vec2 cell;  // metres
+  glm::ivec2 paint_size;
+  glm::vec2 paint_extent;
+};
+
+void set_colours(const Program& program, GroundColours chosen, const Colours& colours) {
+  if (chosen == GroundColours::kPaint) {
+    // Samples lie at the middles of texels.
+    const glm::vec2 size(colours.paint_size), scale = (size - 1.0F) / size / colours.paint_extent,
+                                              offset = 0.5F / size;
+    glProgramUniform2fv(program.id(), uniform(program, "paint_scale"), 1, glm::value_ptr(scale));
+    glProgramUniform2fv(program.id(), uniform(program, "paint_offset"), 1, glm::value_ptr(offset));
   }
+  const bool by_size = chosen == GroundColours::kTriangleSize;
+  glProgramUniform1i(program.id(), uniform(program, "painted"), by_size ? 1 : 0);
+  glProgramUniform2fv(program.id(), uniform(program, "size_cell"), 1,
+                      glm::value_ptr(by_size ? colours.cell : glm::vec2(0)));
+  if (!by_size) return;
+  std::vector<glm::vec3> palette;
+  for (const Rgb& colour : triangle_size_colours()) palette.push_back(as_shares(colour));
+  glProgramUniform3fv(program.id(), uniform(program, "size_colours"), static_cast<GLsizei>(palette.size()),
+                      glm::value_ptr(palette.front()));
 }
 
 // Draws what was uploaded; `prepare` sets each program's uniforms.
@@ -105,9 +130,18 @@ void draw_all(FrameBuffers& buffers, Programs& programs, GLenum nearer, const Pr
 
 }  // namespace
 
+std::span<const Rgb> triangle_size_colours() {
+  static constexpr Rgb kColours[] = {{215, 48, 39},   {244, 135, 68}, {253, 205, 112}, {235, 240, 160},
+                                     {145, 207, 120}, {50, 150, 110}, {69, 117, 180},  {90, 60, 140}};
+  return kColours;
+}
+
 struct FrameRenderer::Gl {
-  Programs plain{"relief.frag"}, wired{"relief.frag", "wire.geom"}, numbers{"triangle_number.frag"};
+  Programs plain{"frame_relief.frag"}, wired{"relief.frag", "wire.geom"}, numbers{"triangle_number.frag"};
   Texture1d ramp = make_ramp_texture();
+  std::optional<Programs> painted;  // linked when there is paint
+  Texture2d paint;
+  Colours colours{};
   FrameBuffers buffers;
   VisibleQuery ground;
 };
@@ -127,6 +161,23 @@ void FrameRenderer::draw(const Frame& frame, const View& view, const FrameStyle&
 void FrameRenderer::upload(const Frame& frame) {
   context_.make_current();
   gl_->buffers.upload(frame);
+  gl_->colours.cell = {frame.cell_x, frame.cell_z};
+}
+
+void FrameRenderer::paint(const Image& colours, const glm::vec2& extent) {
+  context_.make_current();
+  if (!gl_->painted) gl_->painted.emplace("frame_painted.frag", "wire.geom");
+  gl_->paint = Texture2d();
+  glTextureStorage2D(gl_->paint.id(), 1, GL_RGB8, colours.width, colours.height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(gl_->paint.id(), 0, 0, 0, colours.width, colours.height, GL_RGB, GL_UNSIGNED_BYTE,
+                      colours.rgb.data());
+  glTextureParameteri(gl_->paint.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(gl_->paint.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(gl_->paint.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  check_gl("painting the ground");
+  gl_->colours.paint_size = {colours.width, colours.height};
+  gl_->colours.paint_extent = extent;
 }
 
 void FrameRenderer::draw_uploaded(const View& view, const FrameStyle& style) {
@@ -134,12 +185,21 @@ void FrameRenderer::draw_uploaded(const View& view, const FrameStyle& style) {
   context_.target().begin(view.width, view.height, style.background);
   const CullUndersides culling;
   glBindTextureUnit(0, gl_->ramp.id());
+  // Triangles are known to the geometry shader alone.
+  const bool triangles = style.wire_width > 0 || style.colours == GroundColours::kTriangleSize;
+  Programs* programs = triangles ? &gl_->wired : &gl_->plain;
+  GroundColours colours = style.colours;
+  if (colours == GroundColours::kPaint && gl_->colours.paint_size.x == 0) colours = GroundColours::kHeight;
+  if (colours == GroundColours::kPaint) {
+    glBindTextureUnit(kPaintUnit, gl_->paint.id());
+    programs = &*gl_->painted;
+  }
   gl_->ground.begin();
-  draw_all(gl_->buffers, style.wire_width > 0 ? gl_->wired : gl_->plain, GL_LEQUAL,
-           [&](const Program& program) {
-             set_matrix(program, world_to_clip(view));
-             set_style(program, view, style);
-           });
+  draw_all(gl_->buffers, *programs, GL_LEQUAL, [&](const Program& program) {
+    set_matrix(program, world_to_clip(view));
+    set_style(program, view, style);
+    set_colours(program, colours, gl_->colours);
+  });
   gl_->ground.end();
 }
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "renderers/context.h"
@@ -14,6 +16,9 @@
 
 namespace terrabench {
 
+// What colours the ground: its height; the size of its triangles; a colour per sample, see paint().
+enum class GroundColours : std::uint8_t { kHeight, kTriangleSize, kPaint };
+
 struct FrameStyle {
   float lowest = 0, highest = 1;      // metres at the two ends of the colour ramp
   glm::vec3 sun{-0.5F, 0.7F, -0.5F};  // towards the light
@@ -21,7 +26,11 @@ struct FrameStyle {
   float shading_exaggeration = 1;  // factor by which slopes are steepened for the light only
   float wire_width = 0;            // pixels; 0 draws no wires
   float wire_opacity = 0.55F;
+  GroundColours colours = GroundColours::kHeight;
 };
+
+// Of triangles that are half a square of 1, 2, 4, … cells; sizes in between are mixed.
+std::span<const Rgb> triangle_size_colours();
 
 // For the frames of one method, each drawn once and in order: heights and meshes. Facets are lit flat, so
 // that the triangles are visible. The context must outlive it.
@@ -42,6 +51,9 @@ class FrameRenderer {
   void upload(const Frame&);
   void draw_uploaded(const View&, const FrameStyle&);
   void finish();  // waits for the GPU
+  // The ground's colours for GroundColours::kPaint: a pixel per sample of the full terrain, the north-western
+  // first, `extent` metres from the first to the last along x and z.
+  void paint(const Image&, const glm::vec2& extent);
   Image image();  // the last picture drawn
 
   // For each pixel, row by row from the top: the number of its visible triangle in the order of

@@ -56,6 +56,7 @@ using Texture = GlObject<glCreateTextures, glDeleteTextures, kTarget>;
 template <GLenum kTarget>
 using Query = GlObject<glCreateQueries, glDeleteQueries, kTarget>;
 using Texture1d = Texture<GL_TEXTURE_1D>;
+using Texture2d = Texture<GL_TEXTURE_2D>;
 using Texture2dArray = Texture<GL_TEXTURE_2D_ARRAY>;
 using BufferTexture = Texture<GL_TEXTURE_BUFFER>;
 using TimeQuery = Query<GL_TIME_ELAPSED>;

@@ -70,11 +70,10 @@ void RenderTarget::average() const {
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void RenderTarget::show(int width, int height) const {
+void RenderTarget::show(int from, int to) const {
   average();
-  const GLenum filter = width == width_ && height == height_ ? GL_NEAREST : GL_LINEAR;
-  glBlitNamedFramebuffer(averaged_.id(), 0, 0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                         filter);
+  glBlitNamedFramebuffer(averaged_.id(), 0, from, 0, to, height_, from, 0, to, height_, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
   check_gl("showing the picture");
 }
 

@@ -25,8 +25,8 @@ class RenderTarget {
   void average() const;
   // Averages the samples and reads the picture back.
   Image read() const;
-  // Averages the samples and copies the picture into the window's back buffer of width × height pixels.
-  void show(int width, int height) const;
+  // Averages the samples and copies columns [from, to) to the same place in the window's back buffer.
+  void show(int from, int to) const;
 
   int width() const { return width_; }
   int height() const { return height_; }

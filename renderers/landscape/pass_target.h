@@ -6,7 +6,6 @@
 
 namespace terrabench {
 
-using Texture2d = Texture<GL_TEXTURE_2D>;
 using TextureArray = Texture<GL_TEXTURE_2D_ARRAY>;
 
 // Levels of detail of a picture of this size, down to one texel.

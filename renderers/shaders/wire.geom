@@ -10,6 +10,8 @@ uniform usamplerBuffer drawn; // edges to draw, per triangle: bit k for the edge
 uniform int first_triangle;   // of this draw call
 uniform bool all_edges;       // ignore `drawn`
 uniform float wire_width;     // pixels
+uniform vec2 size_cell;       // metres; triangles are coloured by their size in such cells; 0: they are not
+uniform vec3 size_colours[8]; // sRGB: of triangles that are half a square of 1, 2, 4, … cells
 
 in Vertex {
 #include "vertex_members.glsl"
@@ -22,6 +24,14 @@ out Vertex {
 // Lines closer together than two widths fade, so that far ground does not become solid ink.
 float strength(float spacing) { return clamp(spacing / (2.0 * wire_width), 0.0, 1.0); }
 
+vec3 size_colour() {
+  vec2 a = (corner[1].world.xz - corner[0].world.xz) / size_cell;
+  vec2 b = (corner[2].world.xz - corner[0].world.xz) / size_cell;
+  float octave = clamp(0.5 * log2(max(abs(a.x * b.y - a.y * b.x), 1.0)), 0.0, 7.0);
+  int finer = min(int(octave), 6);
+  return mix(size_colours[finer], size_colours[finer + 1], octave - float(finer));
+}
+
 void main() {
   vec2 at[3];
   bool on_screen = true;  // a triangle that extends behind the eye has no screen position and gets no wires
@@ -30,7 +40,7 @@ void main() {
     on_screen = on_screen && w > 0.0;
     at[k] = 0.5 * pixels * gl_in[k].gl_Position.xy / w;
   }
-  uint mask = !on_screen ? 0u : all_edges ? 7u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
+  uint mask = !on_screen || wire_width <= 0.0 ? 0u : all_edges ? 7u : texelFetch(drawn, gl_PrimitiveIDIn + first_triangle).r;
   vec2 a = at[1] - at[0], b = at[2] - at[0];
   float area = abs(a.x * b.y - a.y * b.x);
   vec3 height = vec3(0.0), ink = vec3(0.0), reach = vec3(0.5 * wire_width);
@@ -44,7 +54,7 @@ void main() {
   for (int k = 0; k < 3; ++k) {
     vertex.world = corner[k].world;
     vertex.normal = corner[k].normal;
-    vertex.paint = corner[k].paint;
+    vertex.paint = size_cell.x > 0.0 ? size_colour() : corner[k].paint;
     vertex.bend = corner[k].bend;
     vertex.to_edge = vec3(0.0);
     vertex.to_edge[(k + 1) % 3] = height[(k + 1) % 3];  // the edge across from corner k

@@ -15,6 +15,7 @@
 #include "renderers/gl.h"
 #include "renderers/scene.h"
 #include "renderers/target.h"
+#include "renderers/window.h"
 #include "terrain/metrics/image_error.h"
 #include "tests/renderers/ground.h"
 #include "tests/renderers/virtual_display.h"
@@ -132,9 +133,9 @@ TEST(EglContext, DestroyedFromOutsideSaysSo) {
   EXPECT_NO_THROW(open_egl(8, 8)->target().read());
 }
 
-TEST(GlfwContext, ShowsThePictureInItsWindow) {
+TEST(Window, ShowsThePicture) {
   ASSERT_TRUE(start_virtual_display());
-  const auto context = open_glfw(64, 48, /*visible=*/true);
+  const auto context = open_window({64, 48}, "test");
   context->target().bind();
   glClearColor(0, 0, 1, 1);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -145,7 +146,9 @@ TEST(GlfwContext, ShowsThePictureInItsWindow) {
   glDisable(GL_SCISSOR_TEST);
   // The display draws in its own time.
   for (int i = 0; i < 100 && pixel_on_display(5, 40) != Rgb{255, 0, 0}; ++i) {
-    context->present();
+    context->show(0, 64);
+    context->swap();
+    context->events();
     usleep(20'000);
   }
   EXPECT_EQ(pixel_on_display(5, 40), (Rgb{255, 0, 0}));
@@ -153,7 +156,7 @@ TEST(GlfwContext, ShowsThePictureInItsWindow) {
 }
 
 TEST(GlfwContext, SaysWhichPackageIsMissing) {
-  const Failure absent = failure_of([] { open_glfw(8, 8, false, "libNoSuchGlfw.so.3"); });
+  const Failure absent = failure_of([] { open_glfw(8, 8, "libNoSuchGlfw.so.3"); });
   EXPECT_EQ(absent.code, ExitCode::kEnvironment);
   EXPECT_THAT(absent.advice, HasSubstr("libglfw3"));
 }

@@ -1,0 +1,3 @@
+#version 450 core
+#define BY_PLAN
+#include "relief.glsl"

@@ -1,0 +1,3 @@
+#version 450 core
+#define BY_HEIGHT
+#include "relief.glsl"
