@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "experiments/scene.h"
+
 namespace terrabench {
 
 namespace {
@@ -34,6 +36,11 @@ NearGround near_ground(const TerrainSource& source, int columns, int finer, Prog
       std::make_unique<ImplicitSurface>(std::move(stack), Kernel::kCube, 0, 0, Extractor::kMarchingCubes);
   ground.heights = height_map(ground.surface->stack(), ColumnHeight::kTop, finer);
   return ground;
+}
+
+NearGround ground_for(const TerrainSource& source, bool near_surface, int samples, Progress& progress) {
+  if (source.solid && near_surface) return near_ground(source, samples - 1, 1, progress);
+  return {nullptr, scene_heights(source, samples, progress)};
 }
 
 View standing_on(const NearGround& ground, glm::vec2 place, float heading, float step) {

@@ -55,6 +55,7 @@ constexpr std::pair<const char*, const char*> kExamples[] = {
      "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128"},
     {"export", "  terrabench export mountain.tb mountain.ply"},
     {"render", "  terrabench render mountain.tif --scene --out mountain.png"},
+    {"view", "  terrabench view mountain.tif\n  terrabench view jacksboro --lod roam --lod geomipmap"},
     {"info", "  terrabench info mountain.tif"},
 };
 
@@ -72,6 +73,7 @@ struct Arguments {
   RepresentArguments represent;
   ExportArguments exported;
   RenderArguments render;
+  ViewArguments view;
   CheckArguments check;
   CompareArguments compare;
   MergeArguments merge;
@@ -259,6 +261,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
   if (app.got_subcommand("represent")) return represent_command(a.represent);
   if (app.got_subcommand("export")) return export_command(a.exported);
   if (app.got_subcommand("render")) return render_command(a.render);
+  if (app.got_subcommand("view")) return view_command(a.view);
   return run_command(a.run);
 }
 
@@ -278,6 +281,7 @@ int main_program(int argc, char** argv) {
   add_export(app, arguments.exported);
   add_info(app, arguments.info);
   add_render(app, arguments.render, arguments.threads);
+  add_view(app, arguments.view, arguments.threads);
   add_help(app, arguments);
   app.footer(kFooter);
   for (const auto& [command, examples] : kExamples) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -91,6 +92,18 @@ struct RenderArguments {
 };
 ExitCode render_command(const RenderArguments&);
 
+struct ViewArguments {
+  std::string terrain = "jacksboro";
+  std::vector<std::string> lods;  // one or two; empty: roam
+  std::string as;                 // representation; empty: the terrain itself
+  std::string size = "1280x800";  // of the window
+  int samples = 513;              // along the sides of a solid's height field
+  std::filesystem::path script;   // empty: none
+  bool panels = true;
+  std::uint64_t seed = 1;
+};
+ExitCode view_command(const ViewArguments&);
+
 // The samples along a side of the largest ground that `advise` measures whole.
 inline constexpr int kAdvisedSide = 257;
 
@@ -150,7 +163,10 @@ void add_represent(CLI::App&, RepresentArguments&, int& threads);
 void add_export(CLI::App&, ExportArguments&);
 void add_info(CLI::App&, std::filesystem::path& file);
 void add_render(CLI::App&, RenderArguments&, int& threads);
+void add_view(CLI::App&, ViewArguments&, int& threads);
 void add_advise(CLI::App&, AdviseArguments&, int& threads);
+// "1600x1000". Throws usage_error.
+glm::ivec2 parse_size(const std::string&);
 // `raytrace`: whether the command also takes the renderer that traces rays.
 void add_renderer(CLI::App& command, std::string& renderer, bool raytrace = false);
 

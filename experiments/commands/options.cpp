@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 
 #include "experiments/commands/commands.h"
 #include "renderers/context.h"
@@ -29,6 +30,17 @@ void add_renderer(CLI::App& command, std::string& renderer, bool raytrace) {
           },
           ""))
       ->capture_default_str();
+}
+
+glm::ivec2 parse_size(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%9dx%9d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
+      std::max(width, height) > kLargestPictureSide) {
+    throw usage_error(fmt::format("invalid size '{}': expected WIDTHxHEIGHT, such as 1600x1000", text),
+                      "--size", fmt::format("give both sides in pixels, each 1 to {}", kLargestPictureSide));
+  }
+  return {width, height};
 }
 
 void add_represent(CLI::App& app, RepresentArguments& a, int& threads) {
@@ -224,6 +236,35 @@ void add_render(CLI::App& app, RenderArguments& r, int& threads) {
   command->add_option("--threads", threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command->add_option("--seed", r.seed, "Seed of procedural terrains")->capture_default_str();
+}
+
+void add_view(CLI::App& app, ViewArguments& v, int& threads) {
+  auto* command = app.add_subcommand(
+      "view", "Open a window: fly over a terrain, switch methods, compare two, edit, record camera paths");
+  command
+      ->add_option("terrain", v.terrain,
+                   "A name from `terrabench list terrains`, the path of a DEM or an event file, "
+                   "dem:FILE,OPTION=VALUE (docs/grounds.md) or drawing:FILE.png")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--lod", v.lods,
+          "A level of detail from `terrabench list lods`, or a variant such as geomipmap_morph; given "
+          "twice, two side by side (default: roam)")
+      ->expected(1, 2);
+  command->add_option("--as", v.as,
+                      "Show the ground as this representation holds it, a name from `terrabench list "
+                      "representations`, built with its defaults (default: the terrain itself)");
+  command->add_option("--size", v.size, "Size of the window in pixels")->capture_default_str();
+  command->add_option("--samples", v.samples, "Height samples along each side of a solid terrain")
+      ->check(CLI::Range(2, 16385))
+      ->capture_default_str();
+  command->add_option("--script", v.script,
+                      "Do what this file says and close, instead of waiting for hands (docs/view.md)");
+  command->add_flag("!--no-panels", v.panels, "Hide the panels; H shows them");
+  command->add_option("--threads", threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--seed", v.seed, "Seed of procedural terrains")->capture_default_str();
 }
 
 }  // namespace terrabench

@@ -28,17 +28,6 @@ struct Shot {
   fs::path file;
 };
 
-glm::ivec2 parse_size(const std::string& text) {
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%9dx%9d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-      std::max(width, height) > kLargestPictureSide) {
-    throw usage_error(fmt::format("invalid size '{}': expected WIDTHxHEIGHT, such as 1600x1000", text),
-                      "--size", fmt::format("give both sides in pixels, each 1 to {}", kLargestPictureSide));
-  }
-  return {width, height};
-}
-
 // The values of --set, each for the landscape or the method, whichever has it.
 struct Settings {
   Parameters look, grass, method;
@@ -227,12 +216,6 @@ class Painter {
   std::optional<FrameRenderer> relief_;
 };
 
-// Heights, and for a method that draws one, the near surface of a solid.
-NearGround render_ground(const TerrainSource& source, const LodType& type, int samples, Progress& progress) {
-  if (source.solid && type.traits.near_surface) return near_ground(source, samples - 1, 1, progress);
-  return {nullptr, scene_heights(source, samples, progress)};
-}
-
 struct Painted {
   std::size_t kept = 0;            // from an earlier run
   std::vector<const Shot*> empty;  // drawn without any ground in view
@@ -278,7 +261,7 @@ ExitCode render_command(const RenderArguments& a) {
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
 
   const TerrainSource source = open_terrain(a.terrain, a.seed);
-  const NearGround ground = render_ground(source, type, a.samples, progress);
+  const NearGround ground = ground_for(source, type.traits.near_surface, a.samples, progress);
   const Heightfield& field = ground.heights;
   LandscapeStyle style = make_style(settings.look, bounds_of(field));
   const std::vector<Shot> shots = plan_shots(a, style, field);

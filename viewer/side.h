@@ -1,0 +1,72 @@
+// One method on one ground, with what draws it: the same calls, in the same order, as the experiments and
+// `render` make.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "renderers/frame_renderer.h"
+#include "viewer/edits.h"
+#include "viewer/error_map.h"
+#include "viewer/ground.h"
+#include "viewer/history.h"
+#include "viewer/method.h"
+
+namespace terrabench::viewer {
+
+// A method as it was built, in any thread.
+struct Built {
+  Method method;
+  std::shared_ptr<Ground> ground;
+  std::unique_ptr<Lod> lod;
+  double knob = 0;
+};
+// `knob`: the method's usual setting if NaN. Throws as LodType::build.
+Built build(const Method&, std::shared_ptr<Ground>, double knob, Progress&);
+
+class Side {
+ public:
+  // The context must outlive it.
+  Side(GlContext&, Built);
+
+  const Method& method() const { return built_.method; }
+  const std::shared_ptr<Ground>& ground() const { return built_.ground; }
+  double knob() const { return built_.knob; }
+  void tune(double knob);  // as Lod::tune()
+
+  // Chooses the triangles for the view and sends what changed.
+  void choose(const View&);
+  // Draws the triangles chosen last as seen from any view. `seconds` since the start, for the history.
+  void draw(const View&, const FrameStyle&, double seconds);
+  // The same as a picture, not counted in the history.
+  Image draw_apart(const View&, const FrameStyle&);
+
+  // Takes over a map of errors that is ready, and starts one of the triangles chosen last, for the view that
+  // they were chosen for, if they have changed and none is being computed.
+  void map_errors(double full);
+  const Deviation* error() const { return measured_ ? &error_ : nullptr; }  // of the last map; null without
+
+  // Before the ground changes: waits for work that reads it.
+  void before_edit();
+  // After it has changed there: chooses for the view, and returns what that and sending it cost.
+  FrameSample take_edit(const SampleRect&, const View&);
+
+  const History& history() const { return history_; }
+
+ private:
+  Built built_;
+  FrameRenderer renderer_;
+  History history_;
+  FrameSample now_{};
+  View chosen_for_;
+  const Frame* frame_ = nullptr;
+  ErrorMapper mapper_;
+  Deviation error_{};
+  bool measured_ = false, resting_ = false;
+  bool mapped_ = false;  // the triangles chosen last, at mapped_full_
+  double mapped_full_ = 0;
+  double counted_at_ = -1e9;  // seconds
+  std::size_t memory_ = 0;
+};
+
+}  // namespace terrabench::viewer
