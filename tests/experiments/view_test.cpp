@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class View : public CommandLine {
+class ViewCommand : public CommandLine {
  protected:
   void SetUp() override {
     ASSERT_TRUE(start_virtual_display());
@@ -41,7 +41,7 @@ class View : public CommandLine {
   }
 };
 
-TEST_F(View, PicturesEqualThoseOfRender) {
+TEST_F(ViewCommand, PicturesEqualThoseOfRender) {
   for (const LodType& type : lods()) {
     const Outcome outcome =
         script(fmt::format("wait\nmethod 0 {}\nwait\nkey W 20\nkey Left 10\ndrag 250 100 200 120 5\n"
@@ -54,7 +54,7 @@ TEST_F(View, PicturesEqualThoseOfRender) {
   }
 }
 
-TEST_F(View, EverythingInOneSession) {
+TEST_F(ViewCommand, EverythingInOneSession) {
   std::string text = "wait\nframes 5\n";
   for (const char key : {'G', 'L', 'L', 'F'}) {
     text += fmt::format("key {}\nkey W 5\nkey D 3\n", key);
@@ -62,27 +62,27 @@ TEST_F(View, EverythingInOneSession) {
   text += "key F\nkey L\nkey G\n";
   for (const char key : {'1', '2', '3', '4', '1'}) {
     text +=
-        fmt::format("key {}\nkey W 5\nkey Q 2\nkey E 4\ndrag 300 150 260 170 4\nscroll 2\nscroll -1\n", key);
+        fmt::format("key {}\nkey W 5\nkey Q 2\nkey E 4\ndrag 600 250 560 270 4\nscroll 2\nscroll -1\n", key);
   }
-  text += "resize 400 300\nframes 3\nresize 300 200\nframes 3\n";
+  text += "resize 500 300\nframes 3\nresize 400 240\nframes 3\n";
   text +=
-      "key B\nwait\nframes 3\nequal 2\nwait\nsplit 0.3\ndrag 90 50 150 60 4\nkey L\nkey L\nframes 30\nkey "
+      "key B\nwait\nframes 3\nequal 2\nwait\nsplit 0.3\ndrag 120 50 180 60 4\nkey L\nkey L\nframes 30\nkey "
       "L\nkey B\nwait\n";
-  text += "move 150 150\nkey X\nkey C\nframes 3\nkey Z\nkey Z\nframes 2\n";
+  text += "move 350 180\nkey X\nkey C\nframes 3\nkey Z\nkey Z\nframes 2\n";
   for (const LodType& type : lods())
     text += fmt::format("method 0 {}\nwait\nkey W 4\nkey ] 2\nkey [ 2\n", type.name);
   text += "play fly\nframes 20\nkey P\nkey H\nframes 2\nkey H\n";
   text +=
       "drop small.tif\nwait\nframes 3\ndrop nothing.tif\nwait\nframes 3\nkey Home\nframes 2\npicture "
       "end.png\n";
-  const Outcome outcome = script(text);
+  const Outcome outcome = script(text, "", "800x600");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_THAT(outcome.text, HasSubstr("frames per second"));
+  EXPECT_THAT(outcome.text, HasSubstr("per second"));
   EXPECT_THAT(outcome.text, HasSubstr("render small.tif"));
-  EXPECT_EQ(read_picture(folder_ / "end.png").width, 300);
+  EXPECT_EQ(read_picture(folder_ / "end.png").width, 400);
 }
 
-TEST_F(View, ARecordedPathIsMeasuredAndDrawn) {
+TEST_F(ViewCommand, ARecordedPathIsMeasuredAndDrawn) {
   const Outcome outcome = script("wait\nkey R\nkey W 90\nkey Left 20\nkey W 60\nkey R\nframes 2\n");
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("recorded    path-1.toml"));
@@ -90,25 +90,26 @@ TEST_F(View, ARecordedPathIsMeasuredAndDrawn) {
       call("$T render hills.tif --path path-1.toml --frames 3 --size 80x60 --lod roam --out flight");
   EXPECT_EQ(drawn.code, 0) << drawn.text;
   const Outcome measured = call(
-      "$T run cross.lod-equal-error hills.tif/roam --terrain hills.tif --set path=path-1.toml,frames=2 --out "
+      "$T run cross.lod-equal-error hills.tif/roam/1px --terrain hills.tif --set path=path-1.toml,frames=2 "
+      "--out "
       "out");
   EXPECT_EQ(measured.code, 0) << measured.text;
 }
 
-TEST_F(View, ARepresentationsSurface) {
+TEST_F(ViewCommand, ARepresentationsSurface) {
   const Outcome outcome = script("wait\nframes 2\npicture tin.png 160 120\n", "--as tin --lod geomipmap");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, Not(HasSubstr("terrabench render")));  // draws the terrain itself
 }
 
-TEST_F(View, WithoutADisplayNamesWhatDrawsWithoutOne) {
+TEST_F(ViewCommand, WithoutADisplayNamesWhatDrawsWithoutOne) {
   const Outcome outcome = call("env -u DISPLAY $T view hills.tif");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_THAT(outcome.text, HasSubstr("no window can be opened"));
   EXPECT_THAT(outcome.text, HasSubstr("terrabench render"));
 }
 
-TEST_F(View, MistakesAreFoundBeforeAWindowOpens) {
+TEST_F(ViewCommand, MistakesAreFoundBeforeAWindowOpens) {
   EXPECT_EQ(call("env -u DISPLAY $T view hills.tif --lod roem").code, 2);
   EXPECT_EQ(call("env -u DISPLAY $T view jaksboro").code, 2);
   EXPECT_EQ(call("env -u DISPLAY $T view hills.tif --as tim").code, 2);
