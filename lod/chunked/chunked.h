@@ -20,7 +20,7 @@
 //
 // To follow a frame: update(), select(), draw(); to follow what is built, chunk_store.h and chunk_mesh.h.
 // update(): O(chunks in view), 0.2 µs each; uploads nothing but commands. Building: O(samples · levels · log
-// vertices), in parallel. Memory: 2 to 12 bytes per sample, as the ground is smooth or rough.
+// vertices), in parallel. Memory: 2 to 34 bytes per sample, as the ground is smooth or rough.
 #pragma once
 
 #include <vector>

@@ -24,6 +24,7 @@ const std::filesystem::path kSource = TERRABENCH_SOURCE_DIR;
 Record full_record() {
   Record record = fake_record(fake_provenance(), "hybrid.table2", "n=64 (n=3)");
   record.overrides = {"n=3"};
+  record.seconds = 1.5;
   record.terrain = "caves";
   record.terrain_checksum = checksum("caves");
   record.terrain_notes = {"3 of 24 samples hold no height"};
@@ -94,6 +95,7 @@ Fields documented() {
 TEST(Schema, ThePageListsTheFieldsThatAreWritten) {
   Record least = full_record();
   least.overrides.clear();
+  least.seconds = 0;
   least.terrain_notes.clear();
   least.undefined.clear();
   least.metrics[0].varies = least.metrics[0].series = false;
