@@ -30,7 +30,7 @@ std::map<std::string, double> read() {
 
 double reference_seconds(const RunPlan& plan, const PlannedCase& planned) {
   static const std::map<std::string, double> kSeconds = read();
-  // Growth with size is kept with the measurements of the papers' sizes.
+  // Cases of the profile scale are listed under paper.
   const std::string_view kept = plan.options.profile == Profile::kQuick ? "quick" : "paper";
   const auto at = kSeconds.find(fmt::format("{},{},{}", kept, planned.experiment->id, planned.at.name));
   return at == kSeconds.end() ? 0 : at->second;

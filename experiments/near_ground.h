@@ -21,8 +21,8 @@ struct NearGround {
 // Stacks with `columns` along the longer side, solid at the bottom, and `finer` heights per column.
 NearGround near_ground(const TerrainSource&, int columns, int finer, Progress&);
 
-// What methods draw: of a solid samples × samples heights, as scene_heights(), or, for methods that draw it,
-// its near surface with the heights of its stacks.
+// The ground that methods draw. Of a solid: samples × samples heights, see scene_heights(); with
+// `near_surface`, its near surface and the heights of its stacks.
 NearGround ground_for(const TerrainSource&, bool near_surface, int samples, Progress&);
 
 // At walking height over a place, in the air, looking along `heading` (radians) and a little down. `step` is

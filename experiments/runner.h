@@ -45,7 +45,7 @@ inline constexpr ExitCode kCasesFailed{5};
 // the nearest name), the profile measures none of the experiments, or an assignment fits no parameter of any.
 std::vector<PlannedCase> plan_cases(const RunPlan&);
 
-// That a case will add to the run; 0: not known.
+// Seconds that a case should add to the run; 0: unknown.
 double expected_seconds(const RunPlan&, const PlannedCase&);
 
 // Measures all planned cases and appends their records to folder/measurements.jsonl. A case that fails or

@@ -10,7 +10,7 @@
 
 namespace terrabench {
 
-// Estimates the time left from that of the cases so far, in proportion to what they were expected to take.
+// Time left: the expected time of the other cases, times elapsed ÷ expected time of the finished ones.
 class TimeLeft {
  public:
   // Seconds of one case; 0: not known.

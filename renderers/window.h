@@ -15,8 +15,9 @@
 
 namespace terrabench {
 
+// kExposed: the display has lost what the window showed, or its size has changed.
 struct WindowEvent {
-  enum class Kind : std::uint8_t { kKey, kText, kMove, kButton, kScroll, kDrop } kind = Kind::kKey;
+  enum class Kind : std::uint8_t { kKey, kText, kMove, kButton, kScroll, kDrop, kExposed } kind = Kind::kKey;
   // A key or mouse button by GLFW's number (letters and digits: their ASCII capital), or of a text the
   // character's Unicode number. A key that is held is reported once.
   int code = 0;
@@ -37,10 +38,10 @@ class Window : public GlContext {
   virtual std::string clipboard() const = 0;
   virtual void set_clipboard(const std::string&) = 0;
 
-  // Copies columns [from, to) of the context's picture to the same place in the window. Afterwards the
-  // window's own framebuffer is bound, for what is drawn over the picture.
+  // Copies columns [from, to) of the context's picture to the same place in the window.
   void show(int from, int to);
-  void clear(const Rgb&);  // the same, where there is no picture: all of one colour
+  void clear(const Rgb&);  // instead of a picture
+  void bind();             // as the target of draw calls, for what is drawn over the picture
   // Shows what was drawn; waits for the display's refresh where there is one.
   virtual void swap() = 0;
 };

@@ -26,10 +26,9 @@ Bounds bounds_of(const Heightfield&);
 // Of the far plane, in sides of the ground: water reaches beyond the ground.
 inline constexpr float kFarSides = 4;
 
-// Near and far planes for an eye at any place over or beside ground of any size, whose bounds are given. The
-// far plane lies behind the whole ground. The near plane is nearer than the ground that a level look shows
-// before its feet. If nothing but the ground is drawn (`alone`), it lies no nearer than the bounds begin;
-// water and grass may.
+// Sets near and far planes for an eye anywhere over or beside the ground, whose bounds are given. The far
+// plane lies behind all ground, the near plane before the ground at a level eye's feet. If only the ground is
+// drawn (`alone`), the near plane moves up to where the bounds begin.
 void set_depth_planes(View&, const Heightfield&, const Bounds& ground, bool alone);
 
 }  // namespace terrabench

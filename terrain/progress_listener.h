@@ -1,4 +1,4 @@
-// Who is told how far work is, in place of the terminal: a window.
+// Receives progress in place of the terminal, as a window does.
 #pragma once
 
 #include <functional>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "terrain/error.h"
 #include "terrain/files.h"
@@ -39,6 +40,14 @@ constexpr Binding kBindings[] = {
 };
 
 constexpr double kKnobStep = 1.189207115002721;  // of a knob per key: a quarter octave
+
+// In the working folder: path-1.toml, or the first number that is free.
+std::string free_name(std::string_view stem, std::string_view extension) {
+  for (int number = 1;; ++number) {
+    std::string name = fmt::format("{}-{}{}", stem, number, extension);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
 
 void next_method(Session& session) {
   const std::vector<Method> all = methods();

@@ -1,5 +1,6 @@
 // The eye that the user moves: on foot, in flight, around a place, or over a plan. Headings are degrees
-// clockwise from north and pitches degrees upwards, as in camera paths (docs/paths.md). All functions O(1).
+// clockwise from north and pitches degrees upwards, as in camera paths (docs/paths.md). All functions are
+// O(1), but to begin an orbit is O(width + depth).
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,8 @@ class Camera {
   Motion motion() const { return motion_; }
   void set_motion(Motion);
 
-  // Moves for that many seconds. `way` is to the right, upwards and forwards, each -1 to 1; on foot, upwards
-  // is ignored; in orbit, the place moves; over a plan, forwards is to the picture's top.
+  // Moves for that many seconds. `way`: right, up and forward, in units of speed(); up is ignored on foot and
+  // in orbit; in orbit, the place moves; over a plan, forward is to the picture's top.
   void move(const glm::dvec3& way, double seconds);
   // In orbit the eye goes round; over a plan only the heading changes. Degrees.
   void turn(double right, double up);

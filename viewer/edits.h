@@ -1,6 +1,6 @@
-// Digging and filling with a sphere, where heights can hold it, and undoing it. As a heightmap is edited
-// (representations/heightmap): digging lowers the ground that lies inside the sphere to its underside, and
-// leaves a roof where it is; filling raises the ground under the sphere's top to it.
+// Digs and fills with a sphere, and undoes it, as representations/heightmap does: digging lowers heights
+// inside the sphere to its underside, and spares ground above it; filling raises heights below the sphere's
+// top to it.
 #pragma once
 
 #include <cstddef>

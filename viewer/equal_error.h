@@ -19,7 +19,8 @@ struct EqualError {
 };
 
 // With a method of its own, so that the one that is shown is not disturbed. A method without a setting is
-// measured only. About six times build and update, in parallel.
+// measured only. Costs one build and about six updates and
+// measurements, in parallel.
 void search(EqualError&, const View&, double pixels, Progress&);
 std::string describe(const EqualError&);  // " ROAM 1.98 px at 2.31 px;"
 

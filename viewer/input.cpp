@@ -42,6 +42,7 @@ void Input::take(const WindowEvent& event, bool for_ground, Session& session, Co
       if (!event.files.empty()) session.open(event.files.front());
       break;
     case WindowEvent::Kind::kText:
+    case WindowEvent::Kind::kExposed:
       break;
   }
 }
@@ -79,7 +80,7 @@ void Input::move(Session& session, double seconds) const {
   if (!session.ready() || (way == glm::dvec3(0) && right == 0 && up == 0)) return;
   constexpr double kDegrees = 60;  // per second
   session.stop();
-  session.camera.move(way * (held(GLFW_KEY_LEFT_SHIFT) ? kFast : 1), seconds);
+  session.camera.move(way * (held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT) ? kFast : 1), seconds);
   session.camera.turn(kDegrees * seconds * right, kDegrees * seconds * up);
 }
 

@@ -1,7 +1,6 @@
 // Turns the window's events into motion of the camera and into actions.
 #pragma once
 
-#include <array>
 #include <set>
 
 #include "renderers/window.h"

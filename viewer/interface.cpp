@@ -5,7 +5,9 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "terrain/machine_error.h"
@@ -44,6 +46,14 @@ const char* pasted(void* window) {
   return text.c_str();
 }
 
+// With the signs of units; ImGui's own font lacks them, but serves where the file is absent.
+void load_font(ImFontAtlas& fonts) {
+  constexpr const char* kFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";  // fonts-dejavu-core
+  static constexpr ImWchar kSigns[] = {0x20, 0xFF, 0x2010, 0x203A, 0x2190, 0x2193, 0x2248, 0x2265, 0};
+  std::error_code error;
+  if (std::filesystem::exists(kFile, error)) fonts.AddFontFromFileTTF(kFile, 14, nullptr, kSigns);
+}
+
 void copied(void* window, const char* text) { static_cast<Window*>(window)->set_clipboard(text); }
 
 }  // namespace
@@ -59,6 +69,7 @@ Interface::Interface(Window& window) : window_(window) {
   io.ClipboardUserData = &window_;
   io.GetClipboardTextFn = pasted;
   io.SetClipboardTextFn = copied;
+  load_font(*io.Fonts);
   for (const auto& [key, number] : kKeys) io.KeyMap[key] = number;
   if (!ImGui_ImplOpenGL3_Init("#version 450 core"))
     throw MachineError("Dear ImGui cannot load OpenGL", "viewer", "install Debian's package libgl1");
@@ -96,6 +107,7 @@ void Interface::take(const WindowEvent& event) {
       io.MouseWheel += static_cast<float>(event.at.y);
       break;
     case WindowEvent::Kind::kDrop:
+    case WindowEvent::Kind::kExposed:
       break;
   }
 }
@@ -116,8 +128,8 @@ void Interface::begin(glm::ivec2 size, double seconds) {
 }
 
 void Interface::end() {
-  window_.make_current();
   ImGui::Render();
+  window_.bind();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

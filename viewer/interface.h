@@ -23,7 +23,7 @@ class Interface {
 
   // `seconds` since the frame before, > 0.
   void begin(glm::ivec2 size, double seconds);
-  void end();  // into the framebuffer that is bound
+  void end();  // draws into the window
 
  private:
   Window& window_;

@@ -30,8 +30,8 @@ class Job {
   bool running() const { return thread_.joinable(); }
   // If the work has ended, takes over its result, or throws what it threw. Returns whether it ended.
   bool finish();
-  // Stops the work at its next step, waits for that and drops the result. As one flag stops all work in the
-  // process (Progress::interrupt), nothing else may be working that should go on.
+  // Stops the work at its next step, waits for that and drops the result. Progress::interrupt() stops all
+  // work in the process, so no other may be running.
   void cancel();
 
   struct State {

@@ -8,6 +8,7 @@
 
 #include "lod/camera/camera_path.h"
 #include "renderers/frame_renderer.h"
+#include "terrain/error.h"
 
 namespace terrabench::viewer {
 namespace {
@@ -15,6 +16,21 @@ namespace {
 ImU32 ink(const Rgb& colour) { return IM_COL32(colour[0], colour[1], colour[2], 255); }
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
+
+// What goes wrong, such as a folder that takes no picture, is a message: between Begin and End nothing may
+// throw.
+template <class Work>
+void attempt(Session& session, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    session.message = error.what();
+  }
+}
+
+void button(const char* name, Action action, Session& session, Controls& controls) {
+  if (ImGui::Button(name)) attempt(session, [&] { perform(action, session, controls); });
+}
 
 // A bar of colours with words at its ends.
 void legend(std::span<const Rgb> colours, const std::string& left, const std::string& right) {
@@ -37,7 +53,7 @@ void show_method(Session& session, int k) {
   if (ImGui::BeginCombo("method", side.method().label.c_str())) {
     for (const Method& one : methods()) {
       if (ImGui::Selectable(one.label.c_str(), one.name == side.method().name))
-        session.show_method(k, one.name);
+        attempt(session, [&] { session.show_method(k, one.name); });
     }
     ImGui::EndCombo();
   }
@@ -76,7 +92,7 @@ void show_costs(Session& session, int k) {
   plot(side, "memory MB", "{:.2f}",
        [](const FrameSample& s) { return 1e-6 * static_cast<double>(s.memory); });
   if (const Deviation* error = side.error())
-    text(fmt::format("error: 99 % within {:.2f} px, largest {:.2f} px", error->p99, error->largest));
+    text(fmt::format("error: 99 % within {:.2f} px,\nlargest {:.2f} px", error->p99, error->largest));
   ImGui::PopID();
 }
 
@@ -98,10 +114,6 @@ void show_colours(Session& session) {
     session.look.full_error = static_cast<double>(full);
 }
 
-void button(const char* name, Action action, Session& session, Controls& controls) {
-  if (ImGui::Button(name)) perform(action, session, controls);
-}
-
 void show_look(Session& session, Controls& controls) {
   ImGui::Checkbox("wires", &session.look.wires);
   ImGui::SameLine();
@@ -109,7 +121,8 @@ void show_look(Session& session, Controls& controls) {
   if (ImGui::Checkbox("freeze", &frozen)) session.freeze(frozen);
   ImGui::SameLine();
   bool two = session.sides() > 1;
-  if (ImGui::Checkbox("two methods", &two)) perform(Action::kSecond, session, controls);
+  if (ImGui::Checkbox("two methods", &two))
+    attempt(session, [&] { perform(Action::kSecond, session, controls); });
   show_colours(session);
   auto pixels = static_cast<float>(controls.pixels);
   ImGui::SetNextItemWidth(90);
@@ -131,10 +144,10 @@ void show_camera(Session& session, Controls& controls) {
     for (const CameraPath& path : camera_paths()) {
       if (!ImGui::Selectable(path.name.c_str())) continue;
       controls.path = path;
-      session.play(path);
+      attempt(session, [&] { session.play(path); });
     }
     if (!controls.path.keyframes.empty() && ImGui::Selectable(("again: " + controls.path.name).c_str()))
-      session.play(controls.path);
+      attempt(session, [&] { session.play(controls.path); });
     ImGui::EndCombo();
   }
 }
@@ -163,22 +176,23 @@ void show_help() {
 }  // namespace
 
 std::string comparison(Session& session) {
-  std::string rows = "ground\tmethod\tknob\ttriangles\terror p99 px\tchoose ms\tsend ms\tdraw ms\tmemory B\n";
+  std::string rows =
+      "ground\tmethod\tknob\ttriangles\terror p99 px\tchoose ms\tsend ms\tdraw ms\tsent B\tmemory B\n";
   for (int k = 0; k < session.sides(); ++k) {
     const Side& side = session.side(k);
     if (side.history().empty()) continue;
     const FrameSample& last = side.history().last();
-    rows += fmt::format("{}\t{}\t{:.4g}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.3f}\t{}\n", session.ground().name,
+    rows += fmt::format("{}\t{}\t{:.4g}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.3f}\t{}\t{}\n", session.ground().name,
                         side.method().name, side.knob(), last.triangles,
                         side.error() == nullptr ? "" : fmt::format("{:.3f}", side.error()->p99), last.choose,
-                        last.send, last.draw, last.memory);
+                        last.send, last.draw, last.bytes_sent, last.memory);
   }
   return rows;
 }
 
 void show_panels(Session& session, Controls& controls, double frame_seconds) {
   ImGui::SetNextWindowPos({8, 8}, ImGuiCond_Once);
-  ImGui::SetNextWindowSize({300, std::min(620.0F, static_cast<float>(controls.window.y) - 16)},
+  ImGui::SetNextWindowSize({310, std::min(620.0F, static_cast<float>(controls.window.y) - 16)},
                            ImGuiCond_Once);
   ImGui::Begin("terrabench");
   ImGui::PushItemWidth(190);

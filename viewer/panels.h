@@ -10,7 +10,7 @@ namespace terrabench::viewer {
 
 // `frame_seconds`: of the frame before.
 void show_panels(Session&, Controls&, double frame_seconds);
-// Before there is any ground, and over it while something is done.
+// Progress of the work, otherwise the last message.
 void show_work(const Session&, const Controls&);
 // The line between two methods, and the frustum that triangles were frozen for.
 void show_marks(Session&, const Controls&);

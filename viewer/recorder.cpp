@@ -1,10 +1,7 @@
 #include "viewer/recorder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 namespace terrabench::viewer {
@@ -31,8 +28,7 @@ void Recorder::begin(glm::ivec2 window) {
   window_ = window;
 }
 
-// Still at the last stop. As the eye then looks begins the way from the first; later ones keep how it
-// arrived.
+// Still at the last stop. The first stop keeps the eye's latest direction, later ones that of arrival.
 void Recorder::stand(const Stop& now) {
   stops_.back().left = now.left;
   latest_.reset();
@@ -82,13 +78,6 @@ std::optional<CameraPath> Recorder::end() {
     path.keyframes.push_back(key);
   }
   return path;
-}
-
-std::string free_name(std::string_view stem, std::string_view extension) {
-  for (int number = 1;; ++number) {
-    std::string name = fmt::format("{}-{}{}", stem, number, extension);
-    if (!std::filesystem::exists(name)) return name;
-  }
 }
 
 }  // namespace terrabench::viewer

@@ -5,8 +5,6 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "lod/camera/camera_path.h"
@@ -42,8 +40,5 @@ class Recorder {
   std::optional<Stop> latest_;  // after the last stop
   std::vector<Stop> turns_;     // while the eye is at the first stop's place
 };
-
-// A name for a new file in the working folder: path-1.toml, or the first number that is free.
-std::string free_name(std::string_view stem, std::string_view extension);
 
 }  // namespace terrabench::viewer

@@ -1,4 +1,4 @@
-// A session without hands: a text file whose lines do what a user does, for tests and demonstrations.
+// A scripted session: a text file whose lines do what a user does, for tests and demonstrations.
 // docs/view.md lists the commands. Time passes in steps of 1/60 s per frame, so that the same script moves
 // the camera alike on any machine.
 #pragma once

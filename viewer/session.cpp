@@ -30,6 +30,7 @@ Session::~Session() { job_.cancel(); }
 
 void Session::open(const std::string& ground) {
   wanted_.ground = ground;
+  ++wanted_.opened;
   build();
 }
 
@@ -47,7 +48,7 @@ void Session::close_second() {
 
 // Of the ground that is shown, if it is the wanted one and fits the method.
 std::shared_ptr<Ground> Session::shown_ground(const Method& method) const {
-  if (shown_.ground != wanted_.ground) return nullptr;
+  if (shown_.opened != wanted_.opened) return nullptr;
   for (const auto& side : sides_) {
     if (fits(*side->ground(), method)) return side->ground();
   }
@@ -82,7 +83,8 @@ void Session::build() {
 }
 
 void Session::adopt(std::vector<Built> built, const Wanted& wanted) {
-  const bool moved = shown_.ground != wanted.ground;
+  const bool moved = shown_.opened != wanted.opened;
+  const std::shared_ptr<Ground> before = ready() ? sides_.front()->ground() : nullptr;
   std::vector<std::unique_ptr<Side>> sides;
   for (std::size_t k = 0; k < built.size(); ++k) {
     sides.push_back(built[k].lod ? std::make_unique<Side>(context_, std::move(built[k]))
@@ -90,13 +92,14 @@ void Session::adopt(std::vector<Built> built, const Wanted& wanted) {
   }
   sides_ = std::move(sides);
   shown_ = wanted;
+  if (sides_.front()->ground() != before) edits_.clear();
   if (!moved) {
     camera.keep_on(ground().heights, ground().bounds);
     return;
   }
   frozen_.reset();
-  edits_.clear();
   played_.clear();
+  recorder = Recorder();
   camera.stand_on(ground().heights, ground().bounds);
   message = fmt::format("{}: {} × {} samples", ground().name, ground().heights.width, ground().heights.depth);
   for (const std::string& note : ground().notes) message += "; " + note;

@@ -64,7 +64,7 @@ class Session {
 
   // The view of a picture of this size: of the path that plays, otherwise the camera's.
   View view(glm::ivec2 size) const;
-  // Triangles are chosen for this view from now on, whatever is looked from; or again for what is drawn.
+  // Keeps choosing triangles for the present view, wherever the eye goes; false ends this.
   void freeze(bool);
   const std::optional<View>& frozen() const { return frozen_; }
 
@@ -73,8 +73,8 @@ class Session {
   void draw(glm::ivec2 size, double seconds, const Show&);
   // The picture at another size, wires and lines `scale` times as wide; both sides, divided as in the window.
   Image picture(glm::ivec2 size, float scale = 1);
-  // The command that draws the first side's picture of this size without a window; empty if the picture
-  // depends on what no command can repeat: an edit or other colours.
+  // The command that draws this picture without a window; empty for two methods, --as, wires, other colours,
+  // frozen triangles, edits or a path that plays. It has no --seed and --samples.
   std::string command(glm::ivec2 size) const;
 
   // Digs or fills a sphere and says what it cost. Refused with a message while work goes on and where a
@@ -89,8 +89,9 @@ class Session {
 
  private:
   struct Wanted {
-    std::string ground;
-    std::vector<std::string> methods;  // one or two
+    std::string ground = {};
+    int opened = 0;  // how often a ground was asked for: the same file may have changed
+    std::vector<std::string> methods = {};  // one or two
   };
   void build();
   std::shared_ptr<Ground> shown_ground(const Method&) const;
@@ -102,7 +103,7 @@ class Session {
 
   GlContext& context_;
   OpenGround open_;
-  Wanted wanted_{"", {"roam"}}, shown_;
+  Wanted wanted_{.methods = {"roam"}}, shown_;
   std::vector<std::unique_ptr<Side>> sides_;
   glm::ivec2 size_{800, 600};  // of the last picture drawn
   std::optional<View> frozen_;

@@ -41,8 +41,8 @@ class Side {
   // The same as a picture, not counted in the history.
   Image draw_apart(const View&, const FrameStyle&);
 
-  // Takes over a map of errors that is ready, and starts one of the triangles chosen last, for the view that
-  // they were chosen for, if they have changed and none is being computed.
+  // Takes over a finished error map. If none is being computed and the triangles or `full` changed, starts
+  // one of the triangles chosen last, for their view.
   void map_errors(double full);
   const Deviation* error() const { return measured_ ? &error_ : nullptr; }  // of the last map; null without
 

@@ -15,7 +15,7 @@ struct ViewOptions {
   std::string ground;
   std::vector<std::string> methods;  // one or two names, see method_named()
   glm::ivec2 window{1280, 800};      // pixels
-  std::filesystem::path script;      // empty: none, hands are used
+  std::filesystem::path script;      // empty: interactive
   bool panels = true;
 };
 

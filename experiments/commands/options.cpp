@@ -259,8 +259,7 @@ void add_view(CLI::App& app, ViewArguments& v, int& threads) {
   command->add_option("--samples", v.samples, "Height samples along each side of a solid terrain")
       ->check(CLI::Range(2, 16385))
       ->capture_default_str();
-  command->add_option("--script", v.script,
-                      "Do what this file says and close, instead of waiting for hands (docs/view.md)");
+  command->add_option("--script", v.script, "Run the commands in this file, then close (docs/view.md)");
   command->add_flag("!--no-panels", v.panels, "Hide the panels; H shows them");
   command->add_option("--threads", threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));

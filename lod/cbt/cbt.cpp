@@ -38,7 +38,7 @@ struct Cbt::Criterion {
                ? cell * glm::distance(glm::dvec2(t.a), glm::dvec2(t.b)) > bound.length(middle, nested.radius)
                : nested.error > bound.allow(middle, nested.radius);
   }
-  // The triangle must be split or split further.
+  // Of a triangle with t.splits().
   bool is_in_view(const Triangle& t) const { return frustum.see(errors.box(t)) != Sight::kOutside; }
 };
 
@@ -156,7 +156,7 @@ std::size_t Cbt::apply() {
   return changes;
 }
 
-// For one of the two triangles of a diamond only, which are both coarse or both not.
+// True for one triangle of a diamond only; is_coarse() is the same for both.
 bool Cbt::mergeable(const Diamond& parent, std::size_t leaves, const InView& in_view,
                     const Criterion& criterion) const {
   if (leaves != 2) return false;

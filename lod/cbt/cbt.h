@@ -8,13 +8,13 @@
 // than the knob's pixels, as by rtin, whose triangles are the same. `split=edge` takes the paper's criterion
 // instead, that the longest edge, in plan, shows as more than so many pixels, which bounds no error. The
 // paper makes one pass per frame (`passes=1`): after a jump of the eye the mesh is behind by a level per
-// frame, and the bound is not kept meanwhile. By default an update passes until nothing changes, from the
-// second pass on over what the last one changed.
+// frame, and the bound is not kept meanwhile. By default an update repeats passes until nothing
+// changes; later ones visit only what the last changed.
 //
 // The first pass and drawing are O(leaves), in parallel by ranges of leaves: together 0.2 µs per leaf and
-// processor, most of it spent waiting for errors and heights from memory. A change is O(levels²), 2 to 3 µs.
-// The tree is one byte per lattice point, or up to two for several root squares. Uploads all indices from the
-// first on that differs.
+// processor (tests/bench/rtin_bench), most of it spent waiting for errors and heights from memory. A change
+// is O(levels²), 2 to 3 µs. The tree is one byte per lattice point, or up to two for several root squares.
+// Uploads all indices from the first on that differs.
 #pragma once
 
 #include <vector>
@@ -56,12 +56,12 @@ class Cbt : public Lod {
     cbt::Diamond diamond{};  // node 0: nothing
     bool merge = false;
   };
-  // Whose halves may decide otherwise in the next pass: both, or the left ones alone.
+  // Parent whose halves the next pass decides again: both, or only the left one.
   struct Touched {
     cbt::Diamond parent;
     bool both;
   };
-  // What is known of the view: false is certain; true as well, if `known`.
+  // Whether each may be in view: false is certain; true is certain only if `known`.
   struct InView {
     bool leaf = true, parent = true;
     bool known = false;

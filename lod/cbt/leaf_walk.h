@@ -10,8 +10,8 @@
 namespace terrabench::cbt {
 
 // Calls use(leaf, parent, leaves of the parent, state) for leaves `first` to `last` - 1 in order; a root has
-// no parent, and then 0 leaves. enter(triangle, state) is called for each node on the way, may change its
-// copy of the state, from which the halves start, and omits all leaves below if it returns false.
+// no parent, and then 0 leaves. enter(triangle, state) is called for each node on the way. Its changes of
+// the state pass on to both halves; if it returns false, all leaves below are skipped.
 template <class State, class Enter, class Use>
 class LeafWalk {
  public:

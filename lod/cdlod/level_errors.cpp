@@ -122,7 +122,7 @@ void LevelErrors::measure(const GroundGrid& grid, const NodeTree& tree, const Sa
   for (int level = 0; level < tree.levels(); ++level) {
     const auto l = static_cast<std::size_t>(level);
     const PatchGrid& blocks = grids_[l];
-    const PatchGrid::PatchRect some = patches_of(blocks, rect);
+    const PatchGrid::PatchRect some = blocks.holding(rect.low, rect.high);
     Extremes* const of_level = &blocks_[firsts_[l]];
     tbb::parallel_for(some.z0, some.z1 + 1, [&](int z) {
       for (int x = some.x0; x <= some.x1; ++x) {

@@ -6,11 +6,6 @@
 
 namespace terrabench::cdlod {
 
-PatchGrid::PatchRect patches_of(const PatchGrid& grid, const SampleRect& rect) {
-  return {std::max(rect.low.x - 1, 0) / grid.side, std::min(rect.high.x / grid.side, grid.across() - 1),
-          std::max(rect.low.y - 1, 0) / grid.side, std::min(rect.high.y / grid.side, grid.down() - 1)};
-}
-
 NodeTree::NodeTree(const GroundGrid& grid, int side, int levels)
     : cell_x_(grid.cell_x), cell_z_(grid.cell_z) {
   std::size_t nodes = 0;
@@ -35,7 +30,7 @@ NodeTree::Range NodeTree::measured(const GroundGrid& grid, const PatchGrid::Patc
 }
 
 void NodeTree::measure(const GroundGrid& grid, const SampleRect& rect) {
-  const PatchGrid::PatchRect leaves = patches_of(this->grid(0), rect);
+  const PatchGrid::PatchRect leaves = this->grid(0).holding(rect.low, rect.high);
   tbb::parallel_for(leaves.z0, leaves.z1 + 1, [&](int z) {
     for (int x = leaves.x0; x <= leaves.x1; ++x) {
       ranges_[number(0, x, z)] = measured(grid, this->grid(0).patch(x, z));

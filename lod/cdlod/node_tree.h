@@ -53,7 +53,4 @@ class NodeTree {
   std::vector<Range> ranges_;        // by number
 };
 
-// The patches that hold these samples, those that share them at a border included.
-PatchGrid::PatchRect patches_of(const PatchGrid&, const SampleRect&);
-
 }  // namespace terrabench::cdlod

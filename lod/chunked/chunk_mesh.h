@@ -15,8 +15,8 @@
 
 namespace terrabench::chunked {
 
-// The parts of a chunk, in the order of its indices. Skirts face outward, so an eye sees those of two sides
-// at most, which are mostly beside the surface.
+// The parts of a chunk, in the order of its indices. At most two skirts face an eye; in this order both
+// mostly adjoin the surface and make one batch.
 enum Part : int { kSouthSkirt, kWestSkirt, kSurface, kNorthSkirt, kEastSkirt, kParts };
 
 // Of a skirt.
@@ -28,7 +28,7 @@ struct ChunkMesh {
   std::vector<std::uint32_t> indices;          // vertices; counter-clockwise from above or from outside
   std::array<std::uint32_t, kParts> counts{};  // indices of each part
   float error = 0;                             // largest at any sample of the square, metres
-  // Of a chunk that morphs, by sample; indices then count them from vertex 2·width·depth of the ground on.
+  // Sorted by sample; empty without morphing. With it, index 2·width·depth + k is vertex k.
   std::vector<ChunkVertex> vertices{};
   float morphed_error = 0;  // when all vertices have arrived
 };

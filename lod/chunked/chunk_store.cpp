@@ -127,8 +127,8 @@ void ChunkStore::update(const SampleRect& rect) {
   Progress silent;
   const int levels = tree_.levels();
   const auto rebuilt = [&](int level) {
-    if (!options_.morph || level + 1 == levels) return patches_of(tree_.grid(level), rect);
-    const PatchGrid::PatchRect coarser = patches_of(tree_.grid(level + 1), rect);
+    if (!options_.morph || level + 1 == levels) return tree_.grid(level).holding(rect.low, rect.high);
+    const PatchGrid::PatchRect coarser = tree_.grid(level + 1).holding(rect.low, rect.high);
     const PatchGrid& grid = tree_.grid(level);
     return PatchGrid::PatchRect{2 * coarser.x0, std::min(2 * coarser.x1 + 1, grid.across() - 1),
                                 2 * coarser.z0, std::min(2 * coarser.z1 + 1, grid.down() - 1)};

@@ -2,8 +2,8 @@
 //
 // The squares are those of cdlod::NodeTree. At level 0 they share index patterns of all samples, without
 // error. A chunk of a coarser level misses no sample by more than a share of its side (Options::error), so
-// errors double from level to level. They do not depend on the ground's heights, so that an edit changes no
-// other chunks.
+// the bounds double from level to level. They do not depend on the heights, so without morphing an edit
+// triangulates only the chunks that hold it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace terrabench::chunked {
 
-using cdlod::NodeTree, cdlod::patches_of;
+using cdlod::NodeTree;
 
 struct Options {
   int side = 8;          // cells along a chunk's side at level 0, a power of two

@@ -118,9 +118,8 @@ void Chunked::select(const Shown& chunk, unsigned planes, const Sights& sights) 
   }
 }
 
-// The error on the way is at most linear from that of the chunk to that at its end. So that chunks have
-// arrived when the coarser one takes their place, the way ends where that one's error is allowed at the
-// latest.
+// The error while morphing is at most linear between both ends'. The morph ends no later than where the
+// coarser chunk's error is allowed, so it is complete when that chunk replaces this one.
 float Chunked::share(int level, int x, int z, float allowed) const {
   if (!options_.morph || level == 0 || level + 1 == tree_.levels()) return 0;
   const float from = chunks_.error(level, x, z),

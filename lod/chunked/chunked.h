@@ -4,8 +4,8 @@
 //
 // The meshes are triangulated by greedy insertion (Garland & Heckbert 1995) without regard to each other, so
 // the vertices of neighbours differ along their sides: there are gaps, which the detector counts
-// (lod/meters/cracks.h), but no sight through them. A skirt hangs down to the lowest side of any chunk that
-// can be drawn beside it (floors.h). Only skirts that face the eye are drawn.
+// (lod/meters/cracks.h), but none can be seen through. A skirt hangs down to the lowest side of any chunk
+// that can be drawn beside it (floors.h). Only skirts that face the eye are drawn.
 //
 // A chunk is drawn if the largest error of its samples, measured and no less than that of the chunks below,
 // is allowed anywhere in its box (lod/screen_bound.h). So the knob bounds the error of every sample in view,
@@ -19,8 +19,9 @@
 // the coarser chunk has other triangles, and level 0, which has no vertices of its own, does not morph.
 //
 // To follow a frame: update(), select(), draw(); to follow what is built, chunk_store.h and chunk_mesh.h.
-// update(): O(chunks in view), 0.2 µs each; uploads nothing but commands. Building: O(samples · levels · log
-// vertices), in parallel. Memory: 2 to 34 bytes per sample, as the ground is smooth or rough.
+// update(): O(chunks in view), 0.2 µs each (tests/bench/chunked_bench); uploads nothing but commands.
+// Building: O(samples · levels · log vertices), in parallel. Memory: 1 to 34 bytes per sample on the
+// reference grounds, as they are smooth or rough.
 #pragma once
 
 #include <vector>
@@ -50,7 +51,7 @@ class Chunked : public Lod {
 
   const chunked::NodeTree& tree() const { return tree_; }
   const chunked::ChunkStore& chunks() const { return chunks_; }
-  // How much of their way the vertices of a chunk go that is drawn where so much error is allowed, metres.
+  // How far a chunk has morphed, 0 to 1, where so many metres of error are allowed.
   float share(int level, int x, int z, float allowed) const;
 
  private:

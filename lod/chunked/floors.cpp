@@ -40,7 +40,7 @@ float Floors::at(int level, int x, int z, Side side) const {
 
 // The lines of the coarsest level, and those that each finer level has besides.
 void Floors::update(const SampleRect& rect) {
-  const PatchGrid::PatchRect coarsest = patches_of(tree_.grid(tree_.levels() - 1), rect);
+  const PatchGrid::PatchRect coarsest = tree_.grid(tree_.levels() - 1).holding(rect.low, rect.high);
   for (int level = 0; level < tree_.levels(); ++level) {
     const int ratio = 1 << (tree_.levels() - 1 - level);
     for (const int axis : {0, 1}) {
@@ -72,7 +72,7 @@ void Floors::measure_from(const Place& at) {
   measure(at, lowest);
 }
 
-// `lowest`: at each sample of the side, of the ground and all sides of coarser levels.
+// `lowest`: per sample of the side, the lowest of the ground and of coarser sides, metres.
 void Floors::measure(const Place& at, std::span<float> lowest) {
   if (at.level > 0) {
     if (at.line > 0) lower_to(at, at.line - 1, at.axis == 0 ? kEast : kSouth, lowest);

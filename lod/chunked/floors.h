@@ -1,9 +1,9 @@
-// How low the skirts of chunked LOD must hang, side by side.
+// How low the skirts of chunked LOD must hang, per side of a chunk.
 //
-// Beside a side of a chunk, any other chunk that has a side on the same line may be drawn, of any level. A
-// skirt that reaches down to the lowest of all their sides within its own closes every crack. Chunks of finer
-// levels and of level 0 are not lower than the lowest sample of the side; coarser ones may be, since they can
-// skip it. A vertex that morphs counts with the lower end of its way.
+// Any chunk, of any level, with a side on the same line may be drawn beside this one. A skirt that reaches
+// the lowest of these sides along its own closes every crack. Chunks of finer levels and of level 0 are not
+// lower than the lowest sample of the side; coarser ones may be, since they can skip it. A vertex that morphs
+// counts with the lower end of its way.
 //
 // 8 bytes per chunk. O(samples on sides · levels), in parallel.
 #pragma once

@@ -83,10 +83,7 @@ GeoMipMap::GeoMipMap(const Heightfield& ground, const Options& options, Progress
 
 void GeoMipMap::edited(const SampleRect& rect) {
   check_edit(rect, grid_.width, grid_.depth);
-  // Patches share their border samples.
-  const PatchGrid::PatchRect patches{
-      std::max(rect.low.x - 1, 0) / cut_.side, std::min(rect.high.x / cut_.side, cut_.across() - 1),
-      std::max(rect.low.y - 1, 0) / cut_.side, std::min(rect.high.y / cut_.side, cut_.down() - 1)};
+  const PatchGrid::PatchRect patches = cut_.holding(rect.low, rect.high);
   tree_.measure(grid_, patches);
   if (morphing_) {
     morphing_->measure(grid_, cut_, patterns_, patches);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 namespace terrabench {
 
@@ -30,6 +31,11 @@ struct PatchGrid {
     int x0, x1, z0, z1;
   };
   PatchRect all() const { return {0, across() - 1, 0, down() - 1}; }
+  // The patches that hold one of the samples `low` to `high`, both included; patches share border samples.
+  PatchRect holding(glm::ivec2 low, glm::ivec2 high) const {
+    return {std::max(low.x - 1, 0) / side, std::min(high.x / side, across() - 1),
+            std::max(low.y - 1, 0) / side, std::min(high.y / side, down() - 1)};
+  }
 
   // Arrays by slot have a rim of one slot, so that each patch has four neighbours, at slot + offsets()[side].
   std::size_t slots() const { return static_cast<std::size_t>(across() + 2) * (down() + 2); }

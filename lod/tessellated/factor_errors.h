@@ -1,6 +1,6 @@
-// What the factors of tessellated patches follow from, measured at every sample: the error of each patch's
-// inner square and of each of its strips, for every combination of the factors that make it, and of each side
-// alone. Sides that patches share are kept once, with a sphere around their samples.
+// The errors from which tessellated patches choose factors, measured at every sample: of each patch's inner
+// square and strips, for every combination of factors that shapes them, and of each side alone. Sides that
+// patches share are kept once, with a sphere around their samples.
 //
 // A sample on a side counts for the side alone, not for the strips, so that a strip's error is 0 where the
 // inside has one segment per cell, whatever the side's factor is. O(samples · log² side) to build, in
@@ -40,7 +40,7 @@ class FactorErrors {
   float of_side(std::size_t side, int outside) const {
     return of_sides_[side * static_cast<std::size_t>(logs_ + 1) + static_cast<std::size_t>(outside)];
   }
-  // Of the strips at both patches, where the inside is divided as the side is.
+  // The larger of both strips' errors if the insides have the side's factor.
   float beside(std::size_t side, int outside) const;
   float of_inner(std::uint32_t slot, int inside) const { return of_patches_[place(slot, inside)]; }
   float of_strip(std::uint32_t slot, int inside, int side, int outside) const {

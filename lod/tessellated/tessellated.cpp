@@ -69,10 +69,7 @@ Tessellated::Tessellated(const Heightfield& ground, const Options& options, Prog
 
 void Tessellated::edited(const SampleRect& rect) {
   check_edit(rect, grid_.width, grid_.depth);
-  // Patches share their border samples.
-  const PatchGrid::PatchRect patches{
-      std::max(rect.low.x - 1, 0) / cut_.side, std::min(rect.high.x / cut_.side, cut_.across() - 1),
-      std::max(rect.low.y - 1, 0) / cut_.side, std::min(rect.high.y / cut_.side, cut_.down() - 1)};
+  const PatchGrid::PatchRect patches = cut_.holding(rect.low, rect.high);
   tree_.measure(grid_, patches);
   errors_.measure(grid_, cut_, triangles_, patches);
   if (!first_) append_heights(grid_, rect, edits_);

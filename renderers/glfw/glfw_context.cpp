@@ -50,6 +50,7 @@ struct Library {
   decltype(&glfwSetMouseButtonCallback) on_button = from["glfwSetMouseButtonCallback"];
   decltype(&glfwSetScrollCallback) on_scroll = from["glfwSetScrollCallback"];
   decltype(&glfwSetDropCallback) on_drop = from["glfwSetDropCallback"];
+  decltype(&glfwSetWindowRefreshCallback) on_exposed = from["glfwSetWindowRefreshCallback"];
 };
 
 // The last error of GLFW, cleared: its code and description.
@@ -110,6 +111,7 @@ class GlfwWindow final : public Window {
     glfw_.on_scroll(window_, [](GLFWwindow* window, double x, double y) {
       add(window, {.kind = WindowEvent::Kind::kScroll, .at = {x, y}});
     });
+    glfw_.on_exposed(window_, [](GLFWwindow* window) { add(window, {.kind = WindowEvent::Kind::kExposed}); });
     glfw_.on_drop(window_, [](GLFWwindow* window, int count, const char** paths) {
       add(window, {.kind = WindowEvent::Kind::kDrop, .files = {paths, paths + count}});
     });
@@ -177,16 +179,19 @@ std::unique_ptr<GlfwWindow> open(const char* library, glm::ivec2 window_size, gl
 
 }  // namespace
 
-void Window::show(int from, int to) {
+void Window::bind() {
   make_current();
-  target().show(from, to);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Window::clear(const Rgb& colour) {
+void Window::show(int from, int to) {
   make_current();
+  target().show(from, to);
+}
+
+void Window::clear(const Rgb& colour) {
   const glm::vec3 shares = as_shares(colour);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  bind();
   glClearColor(shares.r, shares.g, shares.b, 1);
   glClear(GL_COLOR_BUFFER_BIT);
 }

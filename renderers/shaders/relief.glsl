@@ -1,4 +1,4 @@
-// Shaded relief. What includes it may define, so that nothing is computed that a picture does not need:
+// Shaded relief. Macros of the including shader, which leave out what its picture does not need:
 //   BY_HEIGHT  facets coloured by height, without wires
 //   BY_PLAN    facets coloured by `paint`
 in Vertex {

@@ -105,7 +105,7 @@ struct Claim {
   // Patterns (glob.h) for the formula() of conditions, such as "*/rmse_best_w = *". Where a claim stands for
   // several, by `each` or on further grounds, a pattern may name conditions of only some of them.
   // Those in `fails` are expected to fail, so that the claim is known to differ; those in `may_fail` were
-  // seen to hold on one machine and to fail on another, and `machine` says why.
+  // seen to hold in one run and to fail in another, of another machine or profile, and `machine` says why.
   std::vector<std::string> fails, may_fail;
   std::string machine;
   std::string not_comparable;  // the reason; empty if the claim is measured

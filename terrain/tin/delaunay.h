@@ -38,7 +38,7 @@ struct Triangle {
   std::array<std::uint32_t, 3> neighbour;  // across the edge opposite the vertex; kNone beyond the rectangle
 };
 
-// The samples of a square, all others too if `side` is 0.
+// A square of samples; all samples if `side` is 0.
 struct Tile {
   Sample north_west{0, 0};
   int side = 0;
@@ -104,10 +104,10 @@ class Delaunay {
   Workspace make_workspace(std::size_t vertices);
   // Those that are left are free for insert() and make_workspace().
   void take_back(Workspace&&);
-  // As insert(), by several threads at once, each with a workspace and a tile of its own. Changes nothing and
-  // returns kNone unless all triangles to be changed have all corners in the tile. Of others only those with
-  // two corners in it, which lie beyond an edge of its own, get a new neighbour there: no two threads touch
-  // the same. The workspace has one vertex and two triangles at least.
+  // As insert(), by several threads at once, each with its own workspace and tile. Returns kNone and changes
+  // nothing unless all triangles to be changed lie wholly in the tile. Triangles beyond the cavity's edges
+  // only get a new neighbour there, so no two threads write the same element. The workspace needs one vertex
+  // and two triangles.
   std::uint32_t insert_in(const Tile&, Sample, std::uint32_t triangle, Workspace&,
                           std::vector<std::uint32_t>& changed);
   bool all_in(const Tile& tile, const Triangle& t) const {

@@ -261,6 +261,82 @@ void expect_morphed(const test::Variant& variant, double knob) {
 TEST(FrameRenderer, MorphsVerticesOfPatches) { expect_morphed({"geomipmap", "morph", true}, 20); }
 TEST(FrameRenderer, MorphsVerticesOfNodes) { expect_morphed({"cdlod"}, 20); }
 
+// Seen from above: the whole field is in view, and level ground in the sun has its colour as it is.
+struct FlatGround {
+  std::unique_ptr<GlContext> context = open_context("osmesa", 16, 16);
+  Heightfield field = test::flat(33, 33);
+  Progress silent;
+  std::unique_ptr<Lod> lod = test::build({"brute_force"}, field, silent);
+  FrameRenderer renderer{*context};
+  Image draw(const FrameStyle& style) {
+    View view = test::from_above(field);
+    view.width = view.height = 100;
+    view.vertical_fov = 2 * std::atan(0.5F * field.extent_x() / view.eye.y);
+    renderer.draw(lod->update(view), view, style);
+    return renderer.image();
+  }
+};
+
+void expect_near(const Rgb& a, const Rgb& b) {
+  for (std::size_t c = 0; c < a.size(); ++c) EXPECT_NEAR(a[c], b[c], 1) << c;
+}
+
+TEST(FrameRenderer, PaintLiesOverTheSamples) {
+  FlatGround ground;
+  Image paint(33, 33, {200, 40, 30});
+  for (int j = 0; j < 33; ++j) {
+    for (int i = 17; i < 33; ++i) paint.set(i, j, {20, 60, 180});
+  }
+  for (int i = 0; i < 66; ++i) paint.set(i % 33, i / 33, {240, 240, 20});
+  EXPECT_NE(ground.draw({.colours = GroundColours::kPaint}).pixel(20, 50), (Rgb{200, 40, 30}));  // none yet
+  ground.renderer.paint(paint, {ground.field.extent_x(), ground.field.extent_z()});
+  const Image picture = ground.draw({.colours = GroundColours::kPaint});
+  expect_near(picture.pixel(20, 50), {200, 40, 30});
+  expect_near(picture.pixel(80, 50), {20, 60, 180});
+  expect_near(picture.pixel(80, 1), {240, 240, 20});  // the north at the top
+}
+
+TEST(FrameRenderer, TrianglesHaveTheColoursOfTheirSizes) {
+  FlatGround ground;
+  expect_near(ground.draw({.colours = GroundColours::kTriangleSize}).pixel(50, 50),
+              triangle_size_colours()[0]);
+  // Two triangles of 32 cells.
+  ground.lod = test::build({"roam"}, ground.field, ground.silent);
+  FrameRenderer renderer(*ground.context);
+  View view = test::from_above(ground.field);
+  view.width = view.height = 100;
+  view.vertical_fov = 2 * std::atan(0.5F * ground.field.extent_x() / view.eye.y);
+  const Frame& frame = ground.lod->update(view);
+  ASSERT_EQ(frame.stats.triangles, 2U);
+  renderer.draw(frame, view, {.colours = GroundColours::kTriangleSize});
+  expect_near(renderer.image().pixel(50, 60), triangle_size_colours()[5]);
+}
+
+// The shader for ground without wires leaves out what wires need, and nothing else.
+TEST(FrameRenderer, WiresOfNoInkChangeNothing) {
+  const Heightfield field = test::waves(150, 120, 20, 2, 3);
+  const auto context = open_context("osmesa", 16, 16);
+  Progress silent;
+  const std::unique_ptr<Lod> lod = test::build({"roam"}, field, silent);
+  FrameRenderer renderer(*context);
+  FrameStyle style = style_of_waves();
+  const View view = walk(field, 0.4F);
+  renderer.draw(lod->update(view), view, style);
+  const Image plain = renderer.image();
+  style.wire_width = 1;
+  style.wire_opacity = 0;
+  renderer.draw_uploaded(view, style);
+  // Without wires another shader draws, whose light may be rounded otherwise.
+  const Image without_ink = renderer.image();
+  int most = 0;
+  for (std::size_t k = 0; k < plain.rgb.size(); ++k)
+    most = std::max(most, std::abs(static_cast<int>(without_ink.rgb[k]) - static_cast<int>(plain.rgb[k])));
+  EXPECT_LE(most, 1);
+  style.wire_opacity = 1;
+  renderer.draw_uploaded(view, style);
+  EXPECT_NE(renderer.image().rgb, plain.rgb);
+}
+
 INSTANTIATE_TEST_SUITE_P(EachMethod, FrameRendererTest, ::testing::ValuesIn(test::variants()), test::name_of);
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "terrain/progress_listener.h"
 #include "tests/terrain/errors.h"
 
 namespace terrabench {
@@ -62,6 +63,26 @@ TEST_F(ProgressTest, SilentSaysNothingAndTheTerminalShowsAnEstimate) {
     terminal.advance();
   }
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("building: 25 %, about 0 s left"));
+}
+
+TEST_F(ProgressTest, AListenerTakesTheTerminalsPlace) {
+  std::string heard;
+  double share = 0;
+  listen_to_progress([&](std::string_view what, double done) {
+    heard = what;
+    share = done;
+  });
+  testing::internal::CaptureStderr();
+  {
+    Progress terminal(Progress::Output::kTerminal);
+    terminal.begin("building", 4);
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));
+    terminal.advance();
+  }
+  listen_to_progress(nullptr);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(heard, "building");
+  EXPECT_EQ(share, 0.25);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "lod/meters/screen_error.h"
 #include "terrain/error.h"
 #include "terrain/framing.h"
+#include "terrain/memory.h"
 #include "tests/terrain/ground.h"
 #include "viewer/actions.h"
 
@@ -229,6 +230,34 @@ TEST_F(SessionTest, HistoryHoldsTenSeconds) {
   const auto at = session.side(0).history().values([](const FrameSample& s) { return s.at; });
   EXPECT_EQ(at.size(), 81U);
   EXPECT_NEAR(at.back() - at.front(), 10, 1e-4);
+}
+
+TEST_F(SessionTest, TheHeapIsSteady) {
+  open();
+  double seconds = 0;
+  const auto round = [&] {
+    for (const char* const method : {"roam", "cdlod", "clipmap"}) {
+      session.show_method(0, method);
+      finish();
+      session.look.colours = Colours::kError;
+      session.camera.place({1900, 700, 2500}, 10, -15);
+      for (int k = 0; k < 150; ++k) {
+        session.camera.move({0.1, 0, 1}, 0.02);
+        session.draw({160, 120}, seconds += 0.125, [](int, int) {});
+      }
+      session.edit({{1900, session.ground().heights.sample(1900, 1800), 1800}, 300, true});
+      session.undo();
+      session.equalise(2);
+      finish();
+    }
+    session.look.colours = Colours::kHeight;
+    session.close_second();
+    finish();
+  };
+  round();
+  const HeapScope heap;
+  for (int k = 0; k < 3; ++k) round();
+  EXPECT_LT(heap.held(), 1 << 20);
 }
 
 TEST_F(SessionTest, EveryActionIsSafeAtAnyTime) {
