@@ -53,7 +53,9 @@ constexpr std::pair<const char*, const char*> kExamples[] = {
     {"represent",
      "  terrabench represent mountain.tif --as layered_stack --save mountain.tb --render mountain.png\n"
      "  terrabench represent caves --as implicit --render caves.png --renderer raytrace --samples 128"},
-    {"export", "  terrabench export mountain.tb mountain.ply"},
+    {"export",
+     "  terrabench export mountain.tb mountain.ply\n"
+     "  terrabench export mountain.tb mountain.obj --surface-only --up z"},
     {"render", "  terrabench render mountain.tif --scene --out mountain.png"},
     {"view", "  terrabench view mountain.tif\n  terrabench view jacksboro --lod roam --lod geomipmap"},
     {"info", "  terrabench info mountain.tif"},

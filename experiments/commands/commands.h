@@ -69,6 +69,8 @@ ExitCode represent_command(const RepresentArguments&);
 struct ExportArguments {
   std::filesystem::path saved, out;  // a saved representation, and the file to write of it
   std::string like;                  // path of the DEM that it was built from; empty: none
+  bool surface_only = false;         // polygons without underside and sides
+  std::string up = "y";              // of polygons: y or z
 };
 ExitCode export_command(const ExportArguments&);
 

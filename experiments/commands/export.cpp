@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "experiments/commands/commands.h"
+#include "representations/export/surface_mesh.h"
+#include "representations/procedural_mesh/mesh_files.h"
 #include "results/store/format.h"
 #include "terrain/sources/dem/dem.h"
 
@@ -28,6 +30,15 @@ LineGrid lines_like(const std::string& dem, const Representation& built, Progres
   return lines_of(field);
 }
 
+void write_surface(const ExportArguments& a, const Representation& built) {
+  FaceMesh mesh = built.polygons();
+  const std::size_t whole = mesh.faces();
+  if (a.surface_only) mesh = surface_only(mesh, built.bounds());
+  if (a.up == "z") turn_z_up(mesh);
+  write_mesh(a.out, mesh);
+  fmt::print("saved       {} ({} of {} polygons, {} up)\n", a.out.string(), mesh.faces(), whole, a.up);
+}
+
 }  // namespace
 
 void print_export(const std::filesystem::path& path, const RepresentationType& type,
@@ -40,7 +51,13 @@ void print_export(const std::filesystem::path& path, const RepresentationType& t
 ExitCode export_command(const ExportArguments& a) {
   Progress progress(isatty(STDERR_FILENO) != 0 ? Progress::Output::kTerminal : Progress::Output::kLines);
   const Loaded loaded = load_representation(a.saved);
-  export_format(a.out, *loaded.type);  // before the DEM is read
+  const std::string_view extension = export_format(a.out, *loaded.type).extension;  // before the DEM is read
+  if (a.surface_only || a.up == "z") {
+    if (extension != ".ply" && extension != ".obj")
+      throw usage_error("--surface-only and --up are for polygons", a.out.string(), "write .ply or .obj");
+    write_surface(a, *loaded.representation);
+    return ExitCode::kGood;
+  }
   const LineGrid lines = a.like.empty() ? own_lines(*loaded.representation)
                                         : lines_like(a.like, *loaded.representation, progress);
   print_export(a.out, *loaded.type, *loaded.representation, lines, progress);

@@ -140,6 +140,11 @@ void add_export(CLI::App& app, ExportArguments& a) {
       ->required();
   command->add_option("--like", a.like,
                       "The DEM that it was built from: write along its samples, with its reference system");
+  command->add_flag("--surface-only", a.surface_only,
+                    "For .ply and .obj: without the underside and the sides that close the ground");
+  command->add_option("--up", a.up, "For .ply and .obj: the axis that points up; y, or z with y to the north")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
 }
 
 void add_info(CLI::App& app, std::filesystem::path& file) {

@@ -38,6 +38,13 @@ Cell cell_of(const Ranking& ranking) {
   return cell;
 }
 
+bool differs(const Ranking& ranking, std::span<const Answer> elsewhere) {
+  const auto answer = std::ranges::find(elsewhere, ranking.layout, &Answer::layout);
+  const std::vector<std::string> best = ranking.best();
+  return answer != elsewhere.end() && !answer->best.empty() && !best.empty() &&
+         std::ranges::find_first_of(best, answer->best) == best.end();
+}
+
 // Of one question: which methods are best on which grounds, tied or alone.
 class Outcomes {
  public:
@@ -100,7 +107,8 @@ std::string slug(std::string text) {
 }
 
 // `rankings`: of one table.
-Table table_of(const std::string& name, const std::vector<const Ranking*>& rankings) {
+Table table_of(const std::string& name, const std::vector<const Ranking*>& rankings,
+               std::span<const Answer> elsewhere) {
   Table table{slug("findings " + name),
               name,
               "The best method on each ground with its lead over the next; ≈ joins methods that are tied.",
@@ -114,6 +122,7 @@ Table table_of(const std::string& name, const std::vector<const Ranking*>& ranki
   for (const std::string& ground : grounds) table.columns.push_back({ground});
   table.columns.push_back({"In all"});
   Outcomes outcomes;
+  bool marked = false;
   const auto finish_row = [&] {
     if (!table.rows.empty()) table.rows.back().back().text = outcomes.text(false);
     outcomes = {};
@@ -124,16 +133,22 @@ Table table_of(const std::string& name, const std::vector<const Ranking*>& ranki
       table.rows.emplace_back(table.columns.size(), Cell{"–"})[0].text = rankings[i]->layout->question;
     }
     const auto at = std::ranges::find(grounds, rankings[i]->layout->ground) - grounds.begin();
-    table.rows.back()[static_cast<std::size_t>(at) + 1] = cell_of(*rankings[i]);
+    Cell& cell = table.rows.back()[static_cast<std::size_t>(at) + 1];
+    cell = cell_of(*rankings[i]);
+    if (differs(*rankings[i], elsewhere)) {
+      cell.text += " †";
+      marked = true;
+    }
     outcomes.add(*rankings[i]);
   }
   finish_row();
+  if (marked) table.caption += " †: in the reference run another method is best.";
   return table;
 }
 
 }  // namespace
 
-std::vector<Table> findings_tables(std::span<const Ranking> rankings) {
+std::vector<Table> findings_tables(std::span<const Ranking> rankings, std::span<const Answer> elsewhere) {
   std::vector<std::pair<std::string, std::vector<const Ranking*>>> groups;
   for (const Ranking* const ranking : placed(rankings)) {
     const std::string& name = ranking->layout->table;
@@ -142,7 +157,7 @@ std::vector<Table> findings_tables(std::span<const Ranking> rankings) {
     at->second.push_back(ranking);
   }
   std::vector<Table> tables;
-  for (const auto& [name, members] : groups) tables.push_back(table_of(name, members));
+  for (const auto& [name, members] : groups) tables.push_back(table_of(name, members, elsewhere));
   return tables;
 }
 

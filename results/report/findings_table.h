@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/claims/ranking.h"
+#include "results/report/advice.h"
 #include "results/report/document.h"
 
 namespace terrabench {
@@ -14,8 +15,9 @@ namespace terrabench {
 // A table per name of RankingLayout::table, in the order of first use, of the rankings that have one. In a
 // cell stands the best method with its lead over the next, "ROAM 1.78 ×", or those that are tied, "drills ≈
 // stacks"; a link leads to the ground's page. The last column says on how many of the grounds a method is
-// best.
-std::vector<Table> findings_tables(std::span<const Ranking>);
+// best. A dagger marks cells of which `elsewhere` has an answer, and none of its methods is among the best
+// here.
+std::vector<Table> findings_tables(std::span<const Ranking>, std::span<const Answer> elsewhere = {});
 
 // A line per headline: the question, and "ROAM on 3 of 3 grounds".
 Facts headlines(std::span<const Ranking>);

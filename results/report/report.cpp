@@ -114,7 +114,10 @@ class Report {
                                counts_text(stated->second, Group::kStated) + ".");
     }
     Document brief{std::move(lines)};
-    for (Table& table : findings_tables(rankings_)) {
+    // The reference run itself is of the paper profile.
+    const std::span<const Answer> reference =
+        results_.profile == "paper" ? std::span<const Answer>() : reference_answers();
+    for (Table& table : findings_tables(rankings_, reference)) {
       findings_ += plain_text(table) + "\n";
       brief.push_back(parts_.table(std::move(table)));
     }

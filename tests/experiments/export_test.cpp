@@ -83,6 +83,42 @@ TEST_F(Export, WhatCannotBeWrittenIsRefusedBeforeItIsBuilt) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.tif"));
 }
 
+TEST_F(Export, TheSurfaceAloneWithZUp) {
+  ASSERT_EQ(call("$T represent " + crop_ + "--as heightmap --save a.tb").code, 0);
+  ASSERT_EQ(call("$T export a.tb closed.ply").code, 0);
+  ASSERT_EQ(call("$T export a.tb open.obj --surface-only --up z").code, 0);
+  const FaceMesh closed = read_mesh(folder_ / "closed.ply"), open = read_mesh(folder_ / "open.obj");
+  EXPECT_GT(closed.faces(), 2U * 63 * 47);
+  EXPECT_EQ(open.faces(), 2U * 63 * 47);
+  ASSERT_EQ(open.positions.size(), ground_.heights.size());
+  const auto [low, high] = std::ranges::minmax(ground_.heights);
+  for (const glm::vec3& p : open.positions) {
+    EXPECT_LE(p.y, 0);
+    EXPECT_GE(p.z, low);
+    EXPECT_LE(p.z, high);
+  }
+  EXPECT_EQ(call("$T export a.tb b.tif --up z").code, 2);
+  EXPECT_EQ(call("$T export a.tb b.ply --up x").code, 2);
+}
+
+TEST_F(Export, TheSurfaceOfASolidKeepsItsOverhangs) {
+  ASSERT_EQ(call("$T represent caves --as implicit --set resolution=32 --save a.tb").code, 0);
+  ASSERT_EQ(call("$T export a.tb closed.ply").code, 0);
+  ASSERT_EQ(call("$T export a.tb open.ply --surface-only").code, 0);
+  const auto looking_down = [&](const char* name) {
+    const FaceMesh mesh = read_mesh(folder_ / name);
+    std::size_t down = 0;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+      const auto face = mesh.face(f);
+      const glm::vec3 a = mesh.positions[face[0]], b = mesh.positions[face[1]], c = mesh.positions[face[2]];
+      down += glm::cross(b - a, c - a).y < 0 ? 1 : 0;
+    }
+    return down;
+  };
+  EXPECT_GT(looking_down("open.ply"), 100U);  // ceilings of the caves
+  EXPECT_LT(looking_down("open.ply"), looking_down("closed.ply"));
+}
+
 TEST_F(Export, AFullDiskLeavesNothingHalf) {
   ASSERT_EQ(call("$T represent " + crop_ + "--as layered_stack --set step=7 --save a.tb").code, 0);
   for (const char* const name : {"b.tif", "b.csv", "b.ply", "b.obj", "b.vdb", "b.tb"}) {

@@ -359,6 +359,19 @@ TEST_F(RankingTest, ATableOfFindingsHasARowPerQuestionAndAColumnPerGround) {
             "Shortest time  drills 3 ×  voxels (alone)  drills on 1 of 2 grounds, voxels on 1\n");
 }
 
+TEST_F(RankingTest, AFindingThatTheReferenceDoesNotShareIsMarked) {
+  measure("hill/a", {0.010, 0.010, 0.010});
+  measure("hill/b", {0.030, 0.030, 0.030});
+  const std::vector<Ranking> here = rank(layouts_, store_, "quick");
+  const auto cell = [&](std::vector<std::string> best) {
+    const std::vector<Answer> reference{{here.at(0).layout, std::move(best)}};
+    return findings_tables(here, reference).at(0).rows.at(0).at(1).text;
+  };
+  EXPECT_EQ(cell({"voxels"}), "drills 3 × †");
+  EXPECT_EQ(cell({"voxels", "drills"}), "drills 3 ×");
+  EXPECT_EQ(cell({}), "drills 3 ×") << "not decided there";
+}
+
 TEST(RankingLayouts, OfTheClaimsFilesAreWellFormed) {
   std::set<std::string> ids, cells;
   for (const RankingLayout& layout : ranking_layouts()) {
