@@ -18,6 +18,7 @@ namespace terrabench::viewer {
 struct Ground {
   std::string name;                // as it was asked for
   std::string as;                  // the representation whose surface it is; empty: the terrain's own
+  std::string render;              // the command that draws it without a window; empty: there is none
   std::vector<std::string> notes;  // what the reader converted, guessed or left out
   Heightfield heights;             // without holes
   std::shared_ptr<const MeshChunks> surface;  // the near surface of a solid; null for heights alone

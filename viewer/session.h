@@ -73,8 +73,8 @@ class Session {
   void draw(glm::ivec2 size, double seconds, const Show&);
   // The picture at another size, wires and lines `scale` times as wide; both sides, divided as in the window.
   Image picture(glm::ivec2 size, float scale = 1);
-  // The command that draws this picture without a window; empty for two methods, --as, wires, other colours,
-  // frozen triangles, edits or a path that plays. It has no --seed and --samples.
+  // The command that draws this picture without a window; empty where Ground::render is, and for two methods,
+  // wires, other colours, frozen triangles, edits or a path that plays.
   std::string command(glm::ivec2 size) const;
 
   // Digs or fills a sphere and says what it cost. Refused with a message while work goes on and where a

@@ -72,12 +72,12 @@ Image Session::picture(glm::ivec2 size, float scale) {
 }
 
 std::string Session::command(glm::ivec2 size) const {
-  if (sides() != 1 || !ground().as.empty() || frozen_ || look.colours != Colours::kHeight || look.wires ||
+  if (sides() != 1 || ground().render.empty() || frozen_ || look.colours != Colours::kHeight || look.wires ||
       edits_.count() > 0 || playing())
     return "";
   const Side& shown = *sides_.front();
   const View seen = view(size);
-  std::string text = fmt::format("terrabench render {} --lod {}", ground().name, shown.method().type->name);
+  std::string text = fmt::format("{} --lod {}", ground().render, shown.method().type->name);
   if (shown.method().type->tunable()) text += fmt::format(" --detail {}", shown.knob());
   const Parameters &options = shown.method().options, usual(options.specs());
   for (std::size_t k = 0; k < options.specs().size(); ++k) {

@@ -6,6 +6,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/near_ground.h"
 #include "representations/representation.h"
+#include "results/store/provenance.h"
 #include "terrain/framing.h"
 #include "viewer/method.h"
 
@@ -32,6 +33,15 @@ Heightfield surface_of(const Representation& structure, Heightfield like, float 
   return like;
 }
 
+std::string render_of(const ViewArguments& a, const std::string& ground, bool solid) {
+  const ViewArguments usual;
+  std::vector<std::string> words{"terrabench", "render", ground};
+  if (solid && a.samples != usual.samples)
+    words.insert(words.end(), {"--samples", std::to_string(a.samples)});
+  if (a.seed != usual.seed) words.insert(words.end(), {"--seed", std::to_string(a.seed)});
+  return quote_command(words);
+}
+
 std::shared_ptr<viewer::Ground> open_ground(const ViewArguments& a, const std::string& name,
                                             bool near_surface, Progress& progress) {
   const TerrainSource source = open_terrain(name, a.seed);
@@ -47,6 +57,8 @@ std::shared_ptr<viewer::Ground> open_ground(const ViewArguments& a, const std::s
     const auto structure = as.build(source, Parameters(as.parameters), progress);
     ground->heights = surface_of(*structure, std::move(ground->heights), source.bounds().low.y, progress);
     ground->as = a.as;
+  } else {
+    ground->render = render_of(a, name, ground->solid);
   }
   ground->bounds = bounds_of(ground->heights);
   return ground;

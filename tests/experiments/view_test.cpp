@@ -25,13 +25,13 @@ class ViewCommand : public CommandLine {
     const auto hill = [](int i, int j) {
       return 120 * std::sin(0.07 * i) * std::cos(0.06 * j) + 9 * std::sin(0.7 * i) * std::sin(0.8 * j);
     };
-    write_geotiff(folder_ / "hills.tif", test::ground_of(129, 97, hill, 10, 10));
+    write_geotiff(folder_ / "two hills.tif", test::ground_of(129, 97, hill, 10, 10));
     write_geotiff(folder_ / "small.tif", test::ground_of(33, 65, hill, 10, 10));
   }
   Outcome script(const std::string& text, const std::string& options = "",
                  const std::string& size = "320x240") {
     write_file(folder_ / "script.txt", std::string_view(text));
-    return call("$T view hills.tif --size " + size + " --script script.txt " + options);
+    return call("$T view 'two hills.tif' --size " + size + " --script script.txt " + options);
   }
   // The command that the output names for a picture, to be written to another file.
   static std::string command_for(const std::string& output, const std::string& to) {
@@ -47,8 +47,9 @@ TEST_F(ViewCommand, PicturesEqualThoseOfRender) {
         script(fmt::format("wait\nmethod 0 {}\nwait\nkey W 20\nkey Left 10\ndrag 250 100 200 120 5\n"
                            "frames 3\npicture seen.png 320 240\n",
                            type.name),
-               "--no-panels");
+               "--no-panels --seed 3");
     ASSERT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("render 'two hills.tif' --seed 3 "));
     ASSERT_EQ(call(command_for(outcome.text, "drawn.png")).code, 0) << outcome.text;
     EXPECT_EQ(read_picture(folder_ / "seen.png").rgb, read_picture(folder_ / "drawn.png").rgb) << type.name;
   }
@@ -87,10 +88,11 @@ TEST_F(ViewCommand, ARecordedPathIsMeasuredAndDrawn) {
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr("recorded    path-1.toml"));
   const Outcome drawn =
-      call("$T render hills.tif --path path-1.toml --frames 3 --size 80x60 --lod roam --out flight");
+      call("$T render 'two hills.tif' --path path-1.toml --frames 3 --size 80x60 --lod roam --out flight");
   EXPECT_EQ(drawn.code, 0) << drawn.text;
   const Outcome measured = call(
-      "$T run cross.lod-equal-error hills.tif/roam/1px --terrain hills.tif --set path=path-1.toml,frames=2 "
+      "$T run cross.lod-equal-error 'two hills.tif/roam/1px' --terrain 'two hills.tif' --set "
+      "path=path-1.toml,frames=2 "
       "--out "
       "out");
   EXPECT_EQ(measured.code, 0) << measured.text;
@@ -103,16 +105,16 @@ TEST_F(ViewCommand, ARepresentationsSurface) {
 }
 
 TEST_F(ViewCommand, WithoutADisplayNamesWhatDrawsWithoutOne) {
-  const Outcome outcome = call("env -u DISPLAY $T view hills.tif");
+  const Outcome outcome = call("env -u DISPLAY $T view 'two hills.tif'");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_THAT(outcome.text, HasSubstr("no window can be opened"));
   EXPECT_THAT(outcome.text, HasSubstr("terrabench render"));
 }
 
 TEST_F(ViewCommand, MistakesAreFoundBeforeAWindowOpens) {
-  EXPECT_EQ(call("env -u DISPLAY $T view hills.tif --lod roem").code, 2);
+  EXPECT_EQ(call("env -u DISPLAY $T view 'two hills.tif' --lod roem").code, 2);
   EXPECT_EQ(call("env -u DISPLAY $T view jaksboro").code, 2);
-  EXPECT_EQ(call("env -u DISPLAY $T view hills.tif --as tim").code, 2);
+  EXPECT_EQ(call("env -u DISPLAY $T view 'two hills.tif' --as tim").code, 2);
   const Outcome script_error = script("wait\nflames 3\n");
   EXPECT_EQ(script_error.code, 3);
   EXPECT_THAT(script_error.text, HasSubstr("script.txt:2"));

@@ -37,6 +37,7 @@ class SessionTest : public ::testing::Test {
                     progress.begin("opening", 1);
                     auto ground = std::make_shared<Ground>();
                     ground->name = name;
+                    ground->render = "terrabench render hills";
                     ground->heights = hills();
                     ground->bounds = bounds_of(ground->heights);
                     return ground;
