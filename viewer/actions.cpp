@@ -28,6 +28,7 @@ constexpr Binding kBindings[] = {
     {GLFW_KEY_T, "T", Action::kEqualise, "the same error for what is shown"},
     {GLFW_KEY_G, "G", Action::kWires, "wires"},
     {GLFW_KEY_L, "L", Action::kColours, "colours: heights, triangle size, error"},
+    {GLFW_KEY_N, "N", Action::kLandscape, "landscape: materials, water, sky and shadows"},
     {GLFW_KEY_F, "F", Action::kFreeze, "freeze the triangles, and look from outside"},
     {GLFW_KEY_R, "R", Action::kRecord, "record a camera path, and end it"},
     {GLFW_KEY_P, "P", Action::kPlay, "play the last path, or stop"},
@@ -146,6 +147,9 @@ void perform(Action action, Session& session, Controls& controls) {
       return;
     case Action::kColours:
       session.look.colours = static_cast<Colours>((static_cast<int>(session.look.colours) + 1) % 3);
+      return;
+    case Action::kLandscape:
+      session.look.landscape = !session.look.landscape;
       return;
     case Action::kFreeze:
       return session.freeze(!session.frozen());

@@ -23,6 +23,7 @@ enum class Action : std::uint8_t {
   kEqualise,
   kWires,
   kColours,
+  kLandscape,
   kFreeze,
   kRecord,
   kPlay,

@@ -123,6 +123,7 @@ void show_look(Session& session, Controls& controls) {
   bool two = session.sides() > 1;
   if (ImGui::Checkbox("two methods", &two))
     attempt(session, [&] { perform(Action::kSecond, session, controls); });
+  ImGui::Checkbox("landscape", &session.look.landscape);
   show_colours(session);
   auto pixels = static_cast<float>(controls.pixels);
   ImGui::SetNextItemWidth(90);

@@ -137,12 +137,14 @@ void Session::finish_work() {
 }
 
 View Session::view(glm::ivec2 size) const {
-  if (played_.empty()) return camera.view(size.x, size.y);
-  const auto frame = static_cast<std::size_t>(played_for_ * frames_per_second_);
-  View view = played_[std::min(frame, played_.size() - 1)];
-  view.width = size.x;
-  view.height = size.y;
-  set_depth_planes(view, ground().heights, ground().bounds, true);
+  View view = camera.view(size.x, size.y);
+  if (!played_.empty()) {
+    const auto frame = static_cast<std::size_t>(played_for_ * frames_per_second_);
+    view = played_[std::min(frame, played_.size() - 1)];
+    view.width = size.x;
+    view.height = size.y;
+  }
+  set_depth_planes(view, ground().heights, ground().bounds, !look.landscape);
   return view;
 }
 

@@ -23,8 +23,9 @@ enum class Colours : std::uint8_t { kHeight, kTriangleSize, kError };
 struct Look {
   Colours colours = Colours::kHeight;
   bool wires = false;
-  double full_error = 4;  // pixels, of the last colour of errors
-  float split = 0.5F;     // of the window's width to the first method, where there are two
+  bool landscape = false;  // materials, water, sky and shadows in place of colours and wires
+  double full_error = 4;   // pixels, of the last colour of errors
+  float split = 0.5F;      // of the window's width to the first method, where there are two
 };
 
 class Session {
@@ -74,7 +75,7 @@ class Session {
   // The picture at another size, wires and lines `scale` times as wide; both sides, divided as in the window.
   Image picture(glm::ivec2 size, float scale = 1);
   // The command that draws this picture without a window; empty where Ground::render is, and for two methods,
-  // wires, other colours, frozen triangles, edits or a path that plays.
+  // wires, other colours, a landscape with grass, frozen triangles, edits or a path that plays.
   std::string command(glm::ivec2 size) const;
 
   // Digs or fills a sphere and says what it cost. Refused with a message while work goes on and where a

@@ -46,15 +46,17 @@ glm::ivec2 Session::columns(int side, int width) const {
 
 void Session::draw(glm::ivec2 size, double seconds, const Show& show) {
   size_ = size;
-  if (look.colours == Colours::kError && ground().heights.heights.size() > kMostMapped) {
+  const bool maps = look.colours == Colours::kError && !look.landscape;
+  if (maps && ground().heights.heights.size() > kMostMapped) {
     look.colours = Colours::kHeight;
     message = "colours by error are for ground of at most 4097 × 4097 samples";
   }
   const View seen = view(size);
   for (int k = 0; k < sides(); ++k) {
     Side& one = side(k);
+    one.show_landscape(look.landscape);
     one.choose(frozen_.value_or(seen));
-    if (look.colours == Colours::kError) one.map_errors(look.full_error);
+    if (maps) one.map_errors(look.full_error);
     one.draw(seen, style(1), seconds);
     const glm::ivec2 part = columns(k, size.x);
     if (part.x < part.y) show(part.x, part.y);
@@ -65,6 +67,7 @@ Image Session::picture(glm::ivec2 size, float scale) {
   const View seen = view(size);
   Image whole(size.x, size.y, {255, 255, 255});
   for (int k = 0; k < sides(); ++k) {
+    side(k).show_landscape(look.landscape);
     side(k).choose(frozen_.value_or(seen));
     copy_columns(side(k).draw_apart(seen, style(scale)), whole, columns(k, size.x));
   }
@@ -72,12 +75,14 @@ Image Session::picture(glm::ivec2 size, float scale) {
 }
 
 std::string Session::command(glm::ivec2 size) const {
-  if (sides() != 1 || ground().render.empty() || frozen_ || look.colours != Colours::kHeight || look.wires ||
-      edits_.count() > 0 || playing())
-    return "";
   const Side& shown = *sides_.front();
+  const bool grass = look.landscape && shown.method().type->traits.near_surface && ground().surface;
+  const bool drawn_alike = look.landscape ? !grass : look.colours == Colours::kHeight && !look.wires;
+  if (sides() != 1 || ground().render.empty() || frozen_ || !drawn_alike || edits_.count() > 0 || playing())
+    return "";
   const View seen = view(size);
-  std::string text = fmt::format("{} --lod {}", ground().render, shown.method().type->name);
+  std::string text = fmt::format("{}{} --lod {}", ground().render, look.landscape ? " --scene" : "",
+                                 shown.method().type->name);
   if (shown.method().type->tunable()) text += fmt::format(" --detail {}", shown.knob());
   const Parameters &options = shown.method().options, usual(options.specs());
   for (std::size_t k = 0; k < options.specs().size(); ++k) {

@@ -24,7 +24,21 @@ Built build(const Method& method, std::shared_ptr<Ground> ground, double knob, P
   return built;
 }
 
-Side::Side(GlContext& context, Built built) : built_(std::move(built)), renderer_(context) {}
+Side::Side(GlContext& context, Built built) : context_(context), built_(std::move(built)) {
+  triangles_.emplace(context);
+}
+
+void Side::show_landscape(bool landscape) {
+  if (landscape == landscape_.has_value()) return;
+  landscape_.reset();
+  triangles_.reset();
+  mapped_ = measured_ = false;  // the painted map went with them
+  if (landscape) {
+    landscape_.emplace(context_, make_style(Parameters(landscape_parameters()), ground()->bounds));
+  } else {
+    triangles_.emplace(context_);
+  }
+}
 
 void Side::tune(double knob) {
   built_.knob = setting(built_.method.type->knob, knob);
@@ -33,10 +47,12 @@ void Side::tune(double knob) {
 }
 
 void Side::choose(const View& view) {
-  const std::size_t before = renderer_.bytes_uploaded();
-  now_.choose = milliseconds([&] { frame_ = &built_.lod->update(view); });
-  now_.send = milliseconds([&] { renderer_.upload(*frame_); });
-  now_.bytes_sent = renderer_.bytes_uploaded() - before;
+  now_.choose = milliseconds([&] { frame_ = &built_.lod->update(landscape_ ? surroundings(view) : view); });
+  if (triangles_) {
+    const std::size_t before = triangles_->bytes_uploaded();
+    now_.send = milliseconds([&] { triangles_->upload(*frame_); });
+    now_.bytes_sent = triangles_->bytes_uploaded() - before;
+  }
   now_.triangles = frame_->stats.triangles;
   resting_ = view.eye == chosen_for_.eye && view.target == chosen_for_.target &&
              view.width == chosen_for_.width && view.height == chosen_for_.height;
@@ -46,8 +62,12 @@ void Side::choose(const View& view) {
 
 void Side::draw(const View& view, const FrameStyle& style, double seconds) {
   now_.draw = milliseconds([&] {
-    renderer_.draw_uploaded(view, style);
-    renderer_.finish();
+    if (landscape_) {
+      draw_landscape(view, seconds);
+    } else {
+      triangles_->draw_uploaded(view, style);
+      triangles_->finish();
+    }
   });
   now_.at = seconds;
   // Counting waits for work in the background, which would be felt in motion.
@@ -61,15 +81,28 @@ void Side::draw(const View& view, const FrameStyle& style, double seconds) {
   now_.bytes_sent = 0;
 }
 
+// As `render --scene` does.
+void Side::draw_landscape(const View& view, double seconds) {
+  LandscapeStyle style = make_style(Parameters(landscape_parameters()), ground()->bounds);
+  thin_fog(style, view.eye);
+  landscape_->restyle(style);
+  landscape_->draw(*frame_, view, seconds);
+  landscape_->shows_ground();  // waits for the GPU
+}
+
 Image Side::draw_apart(const View& view, const FrameStyle& style) {
-  renderer_.draw_uploaded(view, style);
-  return renderer_.image();
+  if (landscape_) {
+    draw_landscape(view, 0);
+    return landscape_->image();
+  }
+  triangles_->draw_uploaded(view, style);
+  return triangles_->image();
 }
 
 void Side::map_errors(double full) {
   const Heightfield& ground = built_.ground->heights;
   if (const auto map = mapper_.take()) {
-    renderer_.paint(map->colours, {ground.extent_x(), ground.extent_z()});
+    triangles_->paint(map->colours, {ground.extent_x(), ground.extent_z()});
     error_ = map->visible;
     measured_ = true;
   }
@@ -82,6 +115,7 @@ void Side::map_errors(double full) {
 FrameSample Side::take_edit(const SampleRect& rect, const View& view) {
   const double told = milliseconds([&] { built_.lod->edited(rect); });
   choose(view);
+  if (landscape_) landscape_->skip(*frame_);
   now_.choose += told;
   return now_;
 }

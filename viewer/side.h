@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderers/frame_renderer.h"
+#include "renderers/landscape/landscape.h"
 #include "viewer/edits.h"
 #include "viewer/error_map.h"
 #include "viewer/ground.h"
@@ -34,9 +36,12 @@ class Side {
   double knob() const { return built_.knob; }
   void tune(double knob);  // as Lod::tune()
 
-  // Chooses the triangles for the view and sends what changed.
+  // From the next choose() on, draws a landscape, or triangles again. Takes a second where it changes.
+  void show_landscape(bool);
+  // Chooses the triangles for the view and sends what changed; a landscape is sent with its picture.
   void choose(const View&);
-  // Draws the triangles chosen last as seen from any view. `seconds` since the start, for the history.
+  // Draws the triangles chosen last, once, as seen from any view. `seconds` since the start, for the history
+  // and for clouds and waves. A landscape has no FrameStyle.
   void draw(const View&, const FrameStyle&, double seconds);
   // The same as a picture, not counted in the history.
   Image draw_apart(const View&, const FrameStyle&);
@@ -54,8 +59,13 @@ class Side {
   const History& history() const { return history_; }
 
  private:
+  void draw_landscape(const View&, double seconds);
+
+  GlContext& context_;
   Built built_;
-  FrameRenderer renderer_;
+  // One of both: each takes over every frame.
+  std::optional<FrameRenderer> triangles_;
+  std::optional<LandscapeRenderer> landscape_;
   History history_;
   FrameSample now_{};
   View chosen_for_;

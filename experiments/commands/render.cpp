@@ -65,13 +65,6 @@ View single_view(const RenderArguments& a, const LandscapeStyle& style, const He
   return view;
 }
 
-// An eye far outside the ground, such as that of a plan, would see nothing but fog: the nearest ground keeps
-// at least 85 % of its colour.
-void thin_fog(LandscapeStyle& style, const glm::vec3& eye) {
-  const glm::vec3 nearest = glm::clamp(eye, style.ground.low, style.ground.high);
-  style.fog_distance = std::max(style.fog_distance, 2.5F * glm::distance(eye, nearest));
-}
-
 std::string frame_name(int number, int frames) {
   const int digits = std::max(4, static_cast<int>(std::to_string(frames - 1).size()));
   return fmt::format("frame_{:0{}}.png", number, digits);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <string>
 
@@ -209,6 +210,11 @@ LandscapeStyle make_style(const Parameters& p, const Bounds& ground) {
   style.border_width = extent * number_of(p, "border");
   style.border_distance = {0.5F * style.border_width, 2 * style.border_width};
   return style;
+}
+
+void thin_fog(LandscapeStyle& style, const glm::vec3& eye) {
+  const glm::vec3 nearest = glm::clamp(eye, style.ground.low, style.ground.high);
+  style.fog_distance = std::max(style.fog_distance, 2.5F * glm::distance(eye, nearest));
 }
 
 }  // namespace terrabench

@@ -77,4 +77,8 @@ std::span<const ParameterSpec> landscape_parameters();
 // written as #rrggbb.
 LandscapeStyle make_style(const Parameters&, const Bounds& ground);
 
+// An eye far outside the ground, such as that of a plan, would see nothing but fog: the nearest ground keeps
+// at least 85 % of its colour.
+void thin_fog(LandscapeStyle&, const glm::vec3& eye);
+
 }  // namespace terrabench

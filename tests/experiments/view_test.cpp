@@ -55,12 +55,24 @@ TEST_F(ViewCommand, PicturesEqualThoseOfRender) {
   }
 }
 
+TEST_F(ViewCommand, ALandscapeEqualsThatOfRender) {
+  for (const char* const method : {"roam", "tessellated"}) {
+    const Outcome outcome = script(fmt::format("wait\nmethod 0 {}\nwait\nkey N\nframes 2\nkey W 3\nframes 2\n"
+                                               "picture seen.png 160 120\nkey N\nframes 2\n",
+                                               method),
+                                   "--no-panels", "160x120");
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    ASSERT_EQ(call(command_for(outcome.text, "drawn.png")).code, 0) << outcome.text;
+    EXPECT_EQ(read_picture(folder_ / "seen.png").rgb, read_picture(folder_ / "drawn.png").rgb) << method;
+  }
+}
+
 TEST_F(ViewCommand, EverythingInOneSession) {
   std::string text = "wait\nframes 5\n";
   for (const char key : {'G', 'L', 'L', 'F'}) {
     text += fmt::format("key {}\nkey W 5\nkey D 3\n", key);
   }
-  text += "key F\nkey L\nkey G\n";
+  text += "key F\nkey L\nkey G\nkey N\nframes 2\nkey B\nwait\nframes 2\nkey B\nkey N\n";
   for (const char key : {'1', '2', '3', '4', '1'}) {
     text +=
         fmt::format("key {}\nkey W 5\nkey Q 2\nkey E 4\ndrag 600 250 560 270 4\nscroll 2\nscroll -1\n", key);

@@ -225,6 +225,23 @@ TEST_F(SessionTest, ACommandIsNamedOnlyForWhatItRepeats) {
   EXPECT_EQ(session.command({320, 200}), "");
 }
 
+// A renderer that takes over a method's frames midway shows the same as one that was there from the start.
+TEST_F(SessionTest, ALandscapeShowsEdits) {
+  open();
+  session.look.landscape = true;
+  const auto draw = [&] { session.draw({160, 120}, 0, [](int, int) {}); };
+  draw();
+  const Image before = picture();
+  session.edit({{1900, session.ground().heights.sample(1900, 1800), 1800}, 300, true});
+  draw();
+  const Image dug = picture();
+  EXPECT_NE(dug.rgb, before.rgb);
+  session.look.landscape = false;
+  draw();
+  session.look.landscape = true;
+  EXPECT_EQ(picture().rgb, dug.rgb);
+}
+
 TEST_F(SessionTest, HistoryHoldsTenSeconds) {
   open();
   for (int k = 0; k < 200; ++k) session.draw({160, 120}, 0.125 * k, [](int, int) {});
