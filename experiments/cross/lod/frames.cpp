@@ -42,7 +42,7 @@ const std::array kSpecs{
                   3, 16385},
     ParameterSpec{"largest", std::int64_t{513}, "samples",
                   "side of the largest fractal or mosaic, or of another generated ground", 3, 16385},
-    ParameterSpec{"seconds", 240.0, "s", "for all sizes; a size that would exceed it is skipped", 0, 1e6},
+    ParameterSpec{"seconds", 480.0, "s", "for all sizes; a size that would exceed it is skipped", 0, 1e6},
 };
 
 // Whether a ground is measured at several sizes.
