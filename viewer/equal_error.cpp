@@ -31,9 +31,9 @@ void search(EqualError& of, const View& view, double pixels, Progress& progress)
 
 std::string describe(const EqualError& of) {
   const Knob& knob = of.method.type->knob;
-  std::string text = fmt::format(" {} {:.3g} px", of.method.label, of.error);
+  std::string text = fmt::format("{} {:.3g} px", of.method.label, of.error);
   if (of.method.type->tunable()) text += fmt::format(" at {} {:.4g} {}", knob.name, of.knob, knob.unit);
-  return text + (of.reached ? ";" : " (no setting comes nearer);");
+  return text + (of.reached ? "" : " (no setting comes nearer)");
 }
 
 }  // namespace terrabench::viewer

@@ -22,6 +22,6 @@ struct EqualError {
 // measured only. Costs one build and about six updates and
 // measurements, in parallel.
 void search(EqualError&, const View&, double pixels, Progress&);
-std::string describe(const EqualError&);  // " ROAM 1.98 px at 2.31 px;"
+std::string describe(const EqualError&);  // "ROAM 1.98 px at max_error 2.31 px"
 
 }  // namespace terrabench::viewer

@@ -113,11 +113,12 @@ void Session::equalise(double pixels) {
   job_.start("searching", [this, searches, seen, pixels](Progress& progress) mutable -> Job::TakeOver {
     for (EqualError& one : searches) search(one, seen, pixels, progress);
     return [this, searches, pixels] {
-      message = fmt::format("99 % within {} px here:", pixels);
+      std::vector<std::string> found;
       for (std::size_t k = 0; k < searches.size() && k < sides_.size(); ++k) {
         sides_[k]->tune(searches[k].knob);
-        message += describe(searches[k]);
+        found.push_back(describe(searches[k]));
       }
+      message = fmt::format("99 % within {} px here: {}", pixels, fmt::join(found, "; "));
     };
   });
 }

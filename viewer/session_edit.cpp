@@ -46,12 +46,13 @@ void Session::changed(const SampleRect& rect, const std::string& what) {
     }
   }
   const glm::ivec2 samples = rect.high - rect.low + 1;
-  message = fmt::format("{} within {} × {} samples:", what, samples.x, samples.y);
+  std::vector<std::string> costs;
   for (const auto& side : sides_) {
     const FrameSample cost = side->take_edit(rect, frozen_.value_or(view(size_)));
-    message += fmt::format(" {} {:.2g} ms to choose, {:.2g} ms to send {} B;", side->method().label,
-                           cost.choose, cost.send, cost.bytes_sent);
+    costs.push_back(fmt::format("{} {:.2g} ms to choose, {:.2g} ms to send {} B", side->method().label,
+                                cost.choose, cost.send, cost.bytes_sent));
   }
+  message = fmt::format("{} within {} × {} samples: {}", what, samples.x, samples.y, fmt::join(costs, "; "));
   camera.keep_on(ground.heights, ground.bounds);
 }
 
