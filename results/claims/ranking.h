@@ -44,6 +44,8 @@ struct Ranking {
   std::string result() const;
   // The best, or those tied with it, by name; none if it is not decided.
   std::vector<std::string> best() const;
+  // Where the samples vary too much to say which: those of which one may be the best, by name; else none.
+  std::vector<std::string> contenders() const;
   // By how much the best is ahead: "1.3 ×", "tied", "alone"; a dash if it is not decided.
   std::string lead() const;
   // Why, in numbers: "2.9 kB against 5.1 kB (TIN)"; or why it is not decided.

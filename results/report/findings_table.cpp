@@ -21,10 +21,12 @@ std::string joined(const std::vector<std::string>& methods) {
 constexpr std::size_t kMostNamed = 3;  // in a cell; the ground's page has all
 
 Cell cell_of(const Ranking& ranking) {
-  const std::vector<std::string> best = ranking.best();
+  const std::vector<std::string> best = ranking.best(), contenders = ranking.contenders();
   Cell cell{joined(best)};
   if (best.empty()) {
-    cell.text = "not decided";
+    cell.text = contenders.empty()               ? "not decided"
+                : contenders.size() > kMostNamed ? fmt::format("one of {} methods", contenders.size())
+                                                 : list_of(contenders, ", ", " or ");
     cell.style = "undecided";
   } else if (best.size() > 1) {
     if (best.size() > kMostNamed) cell.text = fmt::format("{} methods tied", best.size());
@@ -52,6 +54,7 @@ class Outcomes {
     const std::vector<std::string> best = ranking.best();
     for (const std::string& method : best) grounds_of_[method].push_back(grounds_);
     if (best.empty()) ++undecided_;
+    for (const std::string& method : ranking.contenders()) ++may_be_best_on_[method];
     if (best.size() > 1) shared_.insert(grounds_);
     ++grounds_;
   }
@@ -73,11 +76,25 @@ class Outcomes {
       if (i == 0) text += fmt::format(" of {} grounds", grounds_);
       text += shares(grounds);
     }
-    if (text.empty()) return fmt::format("not decided on {} grounds", grounds_);
+    if (text.empty()) return undecided();
     return undecided_ == 0 ? text : text + fmt::format("; not decided on {}", undecided_);
   }
 
  private:
+  // "perhaps CBT or RTIN on 3 of 3 grounds; none is decided"
+  std::string undecided() const {
+    int most = 0;
+    std::vector<std::string> methods;
+    for (const auto& [method, grounds] : may_be_best_on_) {
+      if (grounds > most) methods.clear();
+      if (grounds >= most) methods.push_back(method);
+      most = std::max(most, grounds);
+    }
+    if (methods.empty()) return fmt::format("not decided on {} grounds", grounds_);
+    return fmt::format("perhaps {} on {} of {} grounds; none is decided", list_of(methods, ", ", " or "),
+                       most, grounds_);
+  }
+
   std::string shares(const std::vector<int>& grounds) const {
     const auto tied = std::ranges::count_if(grounds, [&](int ground) { return shared_.contains(ground); });
     if (tied == 0) return "";
@@ -87,6 +104,7 @@ class Outcomes {
   int grounds_ = 0, undecided_ = 0;
   std::set<int> shared_;  // grounds on which several methods are best
   std::map<std::string, std::vector<int>> grounds_of_;
+  std::map<std::string, int> may_be_best_on_;  // grounds
 };
 
 std::vector<const Ranking*> placed(std::span<const Ranking> rankings) {
@@ -111,7 +129,9 @@ Table table_of(const std::string& name, const std::vector<const Ranking*>& ranki
                std::span<const Answer> elsewhere) {
   Table table{slug("findings " + name),
               name,
-              "The best method on each ground with its lead over the next; ≈ joins methods that are tied.",
+              "The best method on each ground with its lead over the next. ≈ joins methods that are tied, "
+              "“or” those of "
+              "which one may be the best: their times vary too much to say which.",
               {{"Best at"}},
               {}};
   std::vector<std::string> grounds;

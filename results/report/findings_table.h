@@ -13,10 +13,10 @@
 namespace terrabench {
 
 // A table per name of RankingLayout::table, in the order of first use, of the rankings that have one. In a
-// cell stands the best method with its lead over the next, "ROAM 1.78 ×", or those that are tied, "drills ≈
-// stacks"; a link leads to the ground's page. The last column says on how many of the grounds a method is
-// best. A dagger marks cells of which `elsewhere` has an answer, and none of its methods is among the best
-// here.
+// cell stands the best method with its lead over the next, "ROAM 1.78 ×", those that are tied, "drills ≈
+// stacks", or those of which one may be the best, "CBT or RTIN"; a link leads to the ground's page. The last
+// column says on how many of the grounds a method is best. A dagger marks cells of which `elsewhere` has an
+// answer, and none of its methods is among the best here.
 std::vector<Table> findings_tables(std::span<const Ranking>, std::span<const Answer> elsewhere = {});
 
 // A line per headline: the question, and "ROAM on 3 of 3 grounds".

@@ -60,6 +60,14 @@ std::vector<std::string> Ranking::best() const {
   return labels;
 }
 
+std::vector<std::string> Ranking::contenders() const {
+  std::vector<std::string> labels;
+  if (places.empty() || !not_compared.empty() || !undecided || too_few) return labels;
+  for (std::size_t i = 0; i < tied; ++i) labels.push_back(places[i].label);
+  std::ranges::sort(labels);
+  return labels;
+}
+
 std::string Ranking::lead() const {
   if (!decided()) return "–";
   if (places.size() == 1) return "alone";

@@ -359,6 +359,16 @@ TEST_F(RankingTest, ATableOfFindingsHasARowPerQuestionAndAColumnPerGround) {
             "Shortest time  drills 3 ×  voxels (alone)  drills on 1 of 2 grounds, voxels on 1\n");
 }
 
+TEST_F(RankingTest, AnUndecidedCellNamesWhichMayBeTheBest) {
+  measure("hill/a", {0.010, 0.006, 0.014});
+  measure("hill/b", {0.013, 0.007, 0.020});
+  const std::vector<Ranking> here = rank(layouts_, store_, "quick");
+  const std::vector<Cell> cells = findings_tables(here).at(0).rows.at(0);
+  EXPECT_EQ(cells.at(1).text, "drills or voxels");
+  EXPECT_EQ(cells.at(1).style, "undecided");
+  EXPECT_EQ(cells.at(2).text, "perhaps drills or voxels on 1 of 1 grounds; none is decided");
+}
+
 TEST_F(RankingTest, AFindingThatTheReferenceDoesNotShareIsMarked) {
   measure("hill/a", {0.010, 0.010, 0.010});
   measure("hill/b", {0.030, 0.030, 0.030});
