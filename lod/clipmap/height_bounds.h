@@ -30,14 +30,14 @@ class HeightBounds {
   Memory memory() const { return index_memory(tiles_); }
 
  private:
-  std::size_t index(int x, int z) const {
-    return static_cast<std::size_t>(z & mask_) * (mask_ + 1) + (x & mask_);
-  }
+  // Where a row of tiles begins in tiles_: its lowest heights, then its highest.
+  std::size_t row(int z) const { return 2 * static_cast<std::size_t>(z & mask_) * (mask_ + 1); }
+  void set(int x, int z, const Range&);
 
   int window_ = 0, mask_ = 0;
   bool filled_ = false;
   glm::ivec2 corner_{0};
-  std::vector<Range> tiles_;  // toroidal
+  std::vector<float> tiles_;  // toroidal, by row()
 };
 
 }  // namespace terrabench::clipmap

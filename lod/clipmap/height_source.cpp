@@ -23,11 +23,20 @@ class FieldSource : public HeightSource {
   float cell_z() const override { return field_.cell_z; }
   std::size_t bytes() const override { return heap_bytes(this); }
 
+  // Rows lie pages apart, so that a strip of few columns waits for memory at each, unless they are fetched
+  // ahead.
   void read(int level, int a, int b, int columns, int rows, float* out, int stride) override {
+    constexpr int kAhead = 32;  // rows
+    const auto line = [&](int row) {
+      return &field_.heights[at(b + row, level, field_.depth) * field_.width];
+    };
+    const std::size_t first = at(a, level, field_.width);
     for (int row = 0; row < rows; ++row, out += stride) {
-      const float* line = &field_.heights[at(b + row, level, field_.depth) * field_.width];
+      __builtin_prefetch(line(row + kAhead) + first);
+      __builtin_prefetch(out + static_cast<std::ptrdiff_t>(kAhead) * stride, 1);
+      const float* const from = line(row);
       for (int column = 0; column < columns; ++column)
-        out[column] = line[at(a + column, level, field_.width)];
+        out[column] = from[at(a + column, level, field_.width)];
     }
   }
 

@@ -59,46 +59,62 @@ inline bool may_open(int apex, int left, int right, int deepest) {
   return std::min(apex, deepest) < std::min({left, right, deepest});
 }
 
-// The conforming rule: the vertices at which triangles are split. One bit per vertex.
+// The conforming rule: the vertices at which triangles are split. One bit per vertex, and 8 B per split.
+// While triangles are split, nothing is looked up: add() only notes, for close(), the one parent that may be
+// missing.
 class SplitVertices {
  public:
-  explicit SplitVertices(const BisectionTree& tree) : tree_(tree) {
-    const std::size_t along = static_cast<std::size_t>(tree.side()) + 1;
-    bits_.resize((along * along + 63) / 64);
+  explicit SplitVertices(const BisectionTree& tree)
+      : tree_(tree), along_(static_cast<std::uint32_t>(tree.side()) + 1) {
+    bits_.resize((static_cast<std::size_t>(along_) * along_ + 63) / 64);
   }
 
   bool has(glm::ivec2 vertex) const {
-    const std::size_t bit = bit_of(vertex);
+    const std::uint32_t bit = bit_of(vertex);
     return ((bits_[bit / 64] >> (bit % 64)) & 1) != 0;
   }
-  // Adds the vertex and its ancestors. The recursion is at most as deep as the tree: parents lie one level
-  // above.
-  void add(glm::ivec2 vertex) {
-    const std::size_t bit = bit_of(vertex);
-    std::uint64_t& word = bits_[bit / 64];
-    const std::uint64_t mask = std::uint64_t{1} << (bit % 64);
-    if ((word & mask) != 0) return;
-    if (word == 0) marked_.push_back(static_cast<std::uint32_t>(bit / 64));
-    word |= mask;
-    const BisectionTree::Parents parents = tree_.parents(vertex);
-    for (int k = 0; k < parents.count; ++k) add(parents.at[k]);
+  // Splits the triangle, all of whose ancestors are split.
+  void add(const PlanTriangle& split) {
+    const std::uint32_t centre = bit_of((split.left + split.right) / 2);
+    set(centre);
+    // The right angle across the hypotenuse. At the border there is none.
+    const glm::ivec2 across = split.left + split.right - split.apex;
+    const auto inside = [&](int at) { return static_cast<std::uint32_t>(at) < along_; };
+    added_.push_back({centre, inside(across.x) && inside(across.y) ? bit_of(across) : centre});
+  }
+  // Adds all ancestors. The recursion is at most as deep as the tree: parents lie one level above.
+  void close() {
+    for (std::size_t k = 0, end = added_.size(); k < end; ++k) add_with_ancestors(added_[k].across);
   }
   // O(vertices added).
   void clear() {
-    for (const std::uint32_t word : marked_) bits_[word] = 0;
-    marked_.clear();
+    for (const Added& vertex : added_) bits_[vertex.bit / 64] = 0;
+    added_.clear();
   }
-  Memory memory() const { return index_memory(bits_, marked_); }
+  Memory memory() const { return index_memory(bits_, added_); }
 
  private:
-  std::size_t bit_of(glm::ivec2 at) const {
-    return static_cast<std::size_t>(at.y) * (static_cast<std::size_t>(tree_.side()) + 1) +
-           static_cast<std::size_t>(at.x);
+  struct Added {
+    std::uint32_t bit, across;
+  };
+
+  std::uint32_t bit_of(glm::ivec2 at) const {
+    return static_cast<std::uint32_t>(at.y) * along_ + static_cast<std::uint32_t>(at.x);
+  }
+  void set(std::uint32_t bit) { bits_[bit / 64] |= std::uint64_t{1} << (bit % 64); }
+  void add_with_ancestors(std::uint32_t bit) {
+    if (((bits_[bit / 64] >> (bit % 64)) & 1) != 0) return;
+    set(bit);
+    added_.push_back({bit, bit});
+    const BisectionTree::Parents parents =
+        tree_.parents({static_cast<int>(bit % along_), static_cast<int>(bit / along_)});
+    for (int k = 0; k < parents.count; ++k) add_with_ancestors(bit_of(parents.at[k]));
   }
 
   BisectionTree tree_;
+  std::uint32_t along_;  // vertices along a side
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint32_t> marked_;  // non-zero words of bits_
+  std::vector<Added> added_;
 };
 
 }  // namespace terrabench

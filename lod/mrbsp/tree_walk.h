@@ -7,7 +7,6 @@
 // triangles still cover the field once; triangles without plan area are left out.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +21,7 @@ namespace terrabench {
 
 // A triangle that the LOD rule does not split, kept until all split vertices are known.
 struct PendingTriangle {
-  std::array<std::uint16_t, 2> apex, left, right;  // vertex coordinates
+  std::uint64_t apex, left, right;  // vertices: x + y · 2³²
   std::uint32_t node;
   unsigned planes;  // of the frustum, that the triangle may cross
 };

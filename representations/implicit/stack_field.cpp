@@ -13,7 +13,6 @@ namespace terrabench {
 namespace {
 
 constexpr double kExact = 9007199254740992.0;  // 2⁵³: doubles hold all integers up to it
-constexpr double kBelow = -1e18;               // where the lowest run begins, in units
 constexpr double kFar = 1e12;                  // positions farther outside, in units, all see the same ground
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
@@ -115,24 +114,6 @@ bool StackField::linear_between(std::span<const float> xs, std::span<const float
   return none_between(xs, &StackField::unit_x) && none_between(zs, &StackField::unit_z);
 }
 
-void add_solid_lengths(const ColumnRuns& runs, double per_level, std::span<const double> v, double radius,
-                       double weight, std::span<double> volume) {
-  std::size_t first = 0;
-  double bottom = kBelow;
-  for (std::size_t r = 0; r < runs.count; ++r) {
-    const double top = runs.tops[r] * per_level;
-    if (runs.materials[r] != Material::kAir) {
-      const auto from = v.begin() + static_cast<std::ptrdiff_t>(first);
-      first = static_cast<std::size_t>(std::upper_bound(from, v.end(), bottom - radius) - v.begin());
-      const auto end = static_cast<std::size_t>(std::lower_bound(from, v.end(), top + radius) - v.begin());
-      for (std::size_t k = first; k < end; ++k) {
-        volume[k] += weight * (std::min(v[k] + radius, top) - std::max(v[k] - radius, bottom));
-      }
-    }
-    bottom = top;
-  }
-}
-
 void StackField::cube_volumes(double x, double z, std::span<const double> v, std::span<double> volume) const {
   const ColumnGrid& grid = stack_.grid();
   // A column's share of the support along one axis; the outermost columns stand for all beyond them.
@@ -152,8 +133,8 @@ void StackField::cube_volumes(double x, double z, std::span<const double> v, std
     for (int i = column_of(x0, grid.width); i <= column_of(x1, grid.width); ++i) {
       const double weight = along_z * share(i, grid.width, x0, x1);
       if (weight == 0) continue;
-      add_solid_lengths(stack_.column(i, j), static_cast<double>(level_unit_), v,
-                        static_cast<double>(radius_y_), weight, volume);
+      add_solid_lengths<double, double>(stack_.column(i, j), static_cast<double>(level_unit_), v,
+                                        static_cast<double>(radius_y_), weight, volume);
     }
   }
 }
@@ -274,8 +255,8 @@ float StackField::at(glm::vec3 p, const ColumnTops& tops) const {
     for (int a = 0; a < along_x.count; ++a) {
       const double share = along_x.share[static_cast<std::size_t>(a)];
       if (row[a] == ColumnTops::kOther) [[unlikely]] {
-        add_solid_lengths(stack_.column(along_x.first + a, along_z.first + b), per_level, std::span(&v, 1),
-                          radius, share, std::span(&sum, 1));
+        add_solid_lengths<double, double>(stack_.column(along_x.first + a, along_z.first + b), per_level,
+                                          std::span(&v, 1), radius, share, std::span(&sum, 1));
       } else {
         sum += share * std::clamp(row[a] * per_level - low, 0.0, 2 * radius);
       }

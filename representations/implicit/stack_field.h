@@ -14,9 +14,11 @@
 // the same for any σ. Sphere: sphere_chords.h; a sample costs O((σ / column)²).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "representations/implicit/sampled_field.h"
@@ -25,6 +27,9 @@
 #include "terrain/memory.h"
 
 namespace terrabench {
+
+template <class Volume>
+class CubePlanes;
 
 enum class Kernel : std::uint8_t { kCube, kSphere };
 inline constexpr std::array<std::string_view, 2> kKernelNames{"cube", "sphere"};
@@ -91,6 +96,7 @@ class StackField final : public SampledField {
   Memory memory() const { return chords_.memory(); }
 
  private:
+  template <class Volume>
   friend class CubePlanes;
   // The columns that the kernel reaches from a rectangle: [first, last] along x and z.
   struct Reach {
@@ -123,8 +129,27 @@ class StackField final : public SampledField {
 };
 
 // Adds to volume[k] the length of the column's solid part in [v[k] - radius, v[k] + radius], times `weight`.
-// `v` ascends, in units of which a level has `per_level`. The lowest level continues downward.
-void add_solid_lengths(const ColumnRuns&, double per_level, std::span<const double> v, double radius,
-                       double weight, std::span<double> volume);
+// `v` ascends, in units of which a level has `per_level`. The lowest level continues downward. Heights are
+// doubles, or below 2²⁹ in int32; volumes may wrap around.
+template <class Height, class Volume>
+void add_solid_lengths(const ColumnRuns& runs, Height per_level, std::span<const Height> v, Height radius,
+                       Volume weight, std::span<Volume> volume) {
+  constexpr auto kBelow = static_cast<Height>(std::is_same_v<Height, double> ? -1e18 : -0x1p30);
+  std::size_t first = 0;
+  Height bottom = kBelow;  // where the lowest run begins
+  for (std::size_t r = 0; r < runs.count; ++r) {
+    const Height top = runs.tops[r] * per_level;
+    if (runs.materials[r] != Material::kAir) {
+      const auto from = v.begin() + static_cast<std::ptrdiff_t>(first);
+      first = static_cast<std::size_t>(std::upper_bound(from, v.end(), bottom - radius) - v.begin());
+      const auto end = static_cast<std::size_t>(std::lower_bound(from, v.end(), top + radius) - v.begin());
+      for (std::size_t k = first; k < end; ++k) {
+        const Height length = std::min(v[k] + radius, top) - std::max(v[k] - radius, bottom);
+        volume[k] += weight * static_cast<Volume>(length);
+      }
+    }
+    bottom = top;
+  }
+}
 
 }  // namespace terrabench

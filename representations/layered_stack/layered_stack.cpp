@@ -6,53 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <limits>
+#include <optional>
 
 #include "representations/block_mesh.h"
 #include "representations/coding/column_codec.h"
 #include "representations/layered_stack/tile.h"
 
 namespace terrabench {
-
-Memory StackTile::memory() const {
-  const std::size_t index = (columns_ + 1U) * start_bytes();
-  return {used_bytes() - index, index, heap_bytes(block_.get()) - used_bytes()};
-}
-
-bool StackTile::operator==(const StackTile& other) const {
-  return columns_ == other.columns_ && runs_ == other.runs_ &&
-         std::memcmp(block_.get(), other.block_.get(), used_bytes()) == 0;
-}
-
-void TileBuilder::add(const StackTile& tile, std::size_t first, std::size_t end) {
-  const std::size_t begin_run = tile.start(first), end_run = tile.start(end), begin = tops_.size();
-  for (std::size_t slot = first; slot < end; ++slot) {
-    starts_.push_back(static_cast<std::uint32_t>(begin + tile.start(slot + 1) - begin_run));
-  }
-  tops_.insert(tops_.end(), tile.tops() + begin_run, tile.tops() + end_run);
-  materials_.insert(materials_.end(), tile.materials() + begin_run, tile.materials() + end_run);
-}
-
-StackTile TileBuilder::finish() const {
-  StackTile tile;
-  tile.runs_ = static_cast<std::uint32_t>(tops_.size());
-  tile.columns_ = static_cast<std::uint16_t>(starts_.size() - 1);
-  tile.wide_ = tops_.size() > std::numeric_limits<std::uint16_t>::max();
-  tile.block_ = std::make_unique_for_overwrite<std::byte[]>(tile.used_bytes());
-  std::byte* out = tile.block_.get();
-  if (tile.wide_) {
-    std::copy(starts_.begin(), starts_.end(), reinterpret_cast<std::uint32_t*>(out));
-  } else {
-    std::transform(starts_.begin(), starts_.end(), reinterpret_cast<std::uint16_t*>(out),
-                   [](std::uint32_t start) { return static_cast<std::uint16_t>(start); });
-  }
-  out += starts_.size() * tile.start_bytes();
-  std::copy(tops_.begin(), tops_.end(), reinterpret_cast<std::uint16_t*>(out));
-  std::copy(materials_.begin(), materials_.end(),
-            reinterpret_cast<Material*>(out + tops_.size() * sizeof tops_[0]));
-  return tile;
-}
 
 LayeredStack::LayeredStack(const ColumnGrid& grid) : grid_(grid) {
   constexpr int kSide = StackTile::kSide;
@@ -115,72 +75,78 @@ std::size_t LayeredStack::runs() const {
   return runs;
 }
 
-void LayeredStack::spans(Columns where, SpanSink& out) const {
-  const ColumnLookup lookup(grid_);
-  for (std::size_t c = 0; c < where.size(); ++c) {
-    int i, j;
-    if (lookup.column(where.x[c], where.z[c], i, j)) {
-      column(i, j).each_solid([&](int bottom, int top, Material material) {
-        out.add({grid_.edge_y(bottom), grid_.edge_y(top), material});
-      });
-    }
-    out.end_column();
-  }
-}
+constexpr std::size_t kGroup = 32;
 
-// In groups, so that the cache misses of many random points overlap: first all addresses, then all starts,
-// then all searches.
-void LayeredStack::materials(Points where, std::span<Material> out) const {
-  constexpr std::size_t kGroup = 32;
-  constexpr std::size_t kLinear = 16;  // up to so many runs counting is faster than bisecting
+// Calls use(c, runs) for each of `count` positions, in groups, so that the cache misses of many random
+// positions overlap: first all addresses, then all starts, then all runs. Before, locate(c, i, j) finds the
+// column; where it returns false, there are no runs.
+template <class Locate, class Use>
+void LayeredStack::for_each_column(std::size_t count, const Locate& locate, const Use& use) const {
   struct Probe {
-    const StackTile* tile;
+    const StackTile* tile;  // null: none
     std::size_t slot;
-    int level;
   };
-  const ColumnLookup lookup(grid_);
   std::array<Probe, kGroup> probes;
-  for (std::size_t first = 0; first < where.size(); first += kGroup) {
-    const std::size_t count = std::min(kGroup, where.size() - first);
-    for (std::size_t g = 0; g < count; ++g) {
-      Probe& probe = probes[g];
+  for (std::size_t first = 0; first < count; first += kGroup) {
+    const std::size_t size = std::min(kGroup, count - first);
+    for (std::size_t g = 0; g < size; ++g) {
+      probes[g].tile = nullptr;
       int i, j;
-      probe.level = lookup.level(where.y[first + g]);
-      if (probe.level < 0 || !lookup.column(where.x[first + g], where.z[first + g], i, j)) {
-        probe.tile = nullptr;
-        continue;
-      }
+      if (!locate(first + g, i, j)) continue;
       const Place at = place(i, j);
-      probe.tile = &tiles_[at.tile];
-      probe.slot = at.slot;
-      __builtin_prefetch(probe.tile->start_address(at.slot));
+      probes[g] = {&tiles_[at.tile], at.slot};
+      __builtin_prefetch(probes[g].tile->start_address(at.slot));
     }
-    for (std::size_t g = 0; g < count; ++g) {
+    for (std::size_t g = 0; g < size; ++g) {
       if (probes[g].tile == nullptr) continue;
       __builtin_prefetch(probes[g].tile->tops_address(probes[g].slot));
       __builtin_prefetch(probes[g].tile->materials_address(probes[g].slot));
     }
-    for (std::size_t g = 0; g < count; ++g) {
-      const Probe& probe = probes[g];
-      out[first + g] = Material::kAir;
-      if (probe.tile == nullptr) continue;
-      const ColumnRuns runs = probe.tile->column(probe.slot);
-      std::size_t below = 0;  // runs that end at or under the level
-      if (runs.count <= kLinear) {
-        for (std::size_t r = 0; r < runs.count; ++r) below += runs.tops[r] <= probe.level ? 1U : 0U;
-      } else {
-        below = static_cast<std::size_t>(std::upper_bound(runs.tops, runs.tops + runs.count, probe.level) -
-                                         runs.tops);
-      }
-      if (below < runs.count) out[first + g] = runs.materials[below];
+    for (std::size_t g = 0; g < size; ++g) {
+      use(first + g, probes[g].tile == nullptr ? ColumnRuns{} : probes[g].tile->column(probes[g].slot));
     }
   }
 }
 
+void LayeredStack::spans(Columns where, SpanSink& out) const {
+  const ColumnLookup lookup(grid_);
+  for_each_column(
+      where.size(),
+      [&](std::size_t c, int& i, int& j) { return lookup.column(where.x[c], where.z[c], i, j); },
+      [&](std::size_t, const ColumnRuns& runs) {
+        runs.each_solid([&](int bottom, int top, Material material) {
+          out.add({grid_.edge_y(bottom), grid_.edge_y(top), material});
+        });
+        out.end_column();
+      });
+}
+
+void LayeredStack::materials(Points where, std::span<Material> out) const {
+  constexpr std::size_t kLinear = 16;  // up to so many runs counting is faster than bisecting
+  const ColumnLookup lookup(grid_);
+  std::array<int, kGroup> levels;
+  for_each_column(
+      where.size(),
+      [&](std::size_t c, int& i, int& j) {
+        levels[c % kGroup] = lookup.level(where.y[c]);
+        return levels[c % kGroup] >= 0 && lookup.column(where.x[c], where.z[c], i, j);
+      },
+      [&](std::size_t c, const ColumnRuns& runs) {
+        const int level = levels[c % kGroup];
+        std::size_t below = 0;  // runs that end at or under the level
+        if (runs.count <= kLinear) {
+          for (std::size_t r = 0; r < runs.count; ++r) below += runs.tops[r] <= level ? 1U : 0U;
+        } else {
+          below = static_cast<std::size_t>(std::upper_bound(runs.tops, runs.tops + runs.count, level) -
+                                           runs.tops);
+        }
+        out[c] = below < runs.count ? runs.materials[below] : Material::kAir;
+      });
+}
+
 struct LayeredStack::ColumnEdit {
   std::size_t tile, slot;
-  int bottom, top;
-  Material material;
+  Run run;  // to be set
 };
 
 // The tile after `edits`, which are sorted by slot and within a slot in the order given.
@@ -197,7 +163,7 @@ StackTile LayeredStack::edited_tile(std::size_t tile, std::span<const ColumnEdit
     before.clear();
     for (std::size_t r = 0; r < runs.count; ++r) before.add(runs.tops[r], runs.materials[r]);
     for (; at != edits.end() && at->slot == slot; ++at) {
-      after.edit(before.runs(), at->bottom, at->top, at->material);
+      after.edit(before.runs(), at->run.bottom, at->run.top, at->run.material);
       std::swap(before, after);
     }
     builder.add(before.runs());
@@ -210,13 +176,23 @@ StackTile LayeredStack::edited_tile(std::size_t tile, std::span<const ColumnEdit
 void LayeredStack::edit(Columns where, std::span<const Span> what) {
   check_edit(where, what);
   const ColumnLookup lookup(grid_);
-  std::vector<ColumnEdit> edits;
-  for (std::size_t c = 0; c < where.size(); ++c) {
+  const auto edit_of = [&](std::size_t c) -> std::optional<ColumnEdit> {
     int i, j;
     const LevelRange levels = grid_.quantise(what[c].bottom, what[c].top);
-    if (levels.begin >= levels.end || !lookup.column(where.x[c], where.z[c], i, j)) continue;
+    if (levels.begin >= levels.end || !lookup.column(where.x[c], where.z[c], i, j)) return {};
     const Place at = place(i, j);
-    edits.push_back({at.tile, at.slot, levels.begin, levels.end, what[c].material});
+    return ColumnEdit{
+        at.tile,
+        at.slot,
+        {static_cast<std::uint16_t>(levels.begin), static_cast<std::uint16_t>(levels.end), what[c].material}};
+  };
+  if (where.size() == 1) {
+    const auto one = edit_of(0);
+    if (!one || tiles_[one->tile].edit(one->slot, one->run)) return;
+  }
+  std::vector<ColumnEdit> edits;
+  for (std::size_t c = 0; c < where.size(); ++c) {
+    if (const auto one = edit_of(c)) edits.push_back(*one);
   }
   std::stable_sort(edits.begin(), edits.end(), [](const ColumnEdit& a, const ColumnEdit& b) {
     return std::pair(a.tile, a.slot) < std::pair(b.tile, b.slot);

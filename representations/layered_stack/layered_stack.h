@@ -1,7 +1,7 @@
 // The discrete data structure of "hybrid" §3.1.1 (after Benes & Forsbach 2001): a two-dimensional array of
 // material stacks. The paper gives no memory layout; here columns lie in square tiles of one heap block each,
-// 2 B per column and 3 B per run. A point query is O(log runs of the column), an edit rewrites the tiles that
-// it touches (2 to 4 KiB each).
+// 2 B per column and 3 B per run. A point query is O(log runs of the column); an edit of one column moves
+// what lies behind it in its tile, of several rewrites the tiles that it touches (2 to 4 KiB each).
 #pragma once
 
 #include <memory>
@@ -49,6 +49,8 @@ class LayeredStack final : public Representation {
   };
   struct ColumnEdit;
 
+  template <class Locate, class Use>
+  void for_each_column(std::size_t count, const Locate&, const Use&) const;
   explicit LayeredStack(const ColumnGrid&);
   Place place(int i, int j) const {
     constexpr int kSide = StackTile::kSide;

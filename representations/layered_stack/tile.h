@@ -1,12 +1,12 @@
 // A square of neighbouring material stacks in one heap block: where each column starts, then all levels, then
-// all materials. 2 B per column and 3 B per run; nothing is allocated per column, and an edit rewrites one
-// tile.
+// all materials. 2 B per column and 3 B per run; nothing is allocated per column.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "representations/runs.h"
@@ -48,6 +48,9 @@ class StackTile {
   }
   std::size_t columns() const { return columns_; }
   std::size_t runs() const { return runs_; }
+  // Sets levels [bottom, top) of a column, within the block where that keeps its size. Strong guarantee.
+  // False where the number of runs asks for starts of another width: nothing is done. O(runs of the tile).
+  bool edit(std::size_t slot, const Run&);
   // For prefetching: the address of column()'s first read and, when the starts are in the cache, of its
   // second.
   const void* start_address(std::size_t slot) const { return block_.get() + slot * start_bytes(); }
@@ -63,9 +66,13 @@ class StackTile {
     return wide_ ? reinterpret_cast<const std::uint32_t*>(block_.get())[slot]
                  : reinterpret_cast<const std::uint16_t*>(block_.get())[slot];
   }
-  std::size_t used_bytes() const {
-    return (columns_ + 1U) * start_bytes() + runs_ * (sizeof(std::uint16_t) + sizeof(Material));
+  std::size_t used_bytes() const { return used_bytes(runs_); }
+  std::size_t used_bytes(std::size_t runs) const {
+    return (columns_ + 1U) * start_bytes() + runs * (sizeof(std::uint16_t) + sizeof(Material));
   }
+  // The block's size: as operator new rounds it in any case (heap_bytes()), so that most edits fit.
+  static std::size_t block_bytes(std::size_t used) { return (used + 8 + 31) / 32 * 32 - 8; }
+  void splice(std::size_t first, std::size_t end, std::span<const Run> by);
   const std::uint16_t* tops() const {
     return reinterpret_cast<const std::uint16_t*>(block_.get() + (columns_ + 1U) * start_bytes());
   }

@@ -16,13 +16,11 @@ namespace {
 
 using namespace terrabench;
 
-constexpr int kSize = 256;
-
-std::unique_ptr<ImplicitSurface> surface() {
+std::unique_ptr<ImplicitSurface> surface(int size) {
   Progress progress;
-  const TerrainSource source = noise::cave_source({.extent = kSize});
+  const TerrainSource source = noise::cave_source({.extent = static_cast<float>(size)});
   return std::make_unique<ImplicitSurface>(
-      LayeredStack::build_stack(source, {column_parameters(), {{"resolution", std::int64_t{kSize}}}},
+      LayeredStack::build_stack(source, {column_parameters(), {{"resolution", std::int64_t{size}}}},
                                 progress),
       Kernel::kCube, 2, 0, Extractor::kMarchingCubes);
 }
@@ -79,7 +77,7 @@ class SampleArray final : public SampledField {
 };
 
 const SampleArray& sampled() {
-  static const SampleArray array(*surface());
+  static const SampleArray array(*surface(256));
   return array;
 }
 
@@ -135,10 +133,19 @@ void our_polygons(benchmark::State& state, Extractor extractor) {
   state.counters["vs_vtk"] = g_flying_edges / best;
 }
 
+// From the stacks: with the field's samples, as mesh() makes it.
+void from_stacks(benchmark::State& state) {
+  const auto implicit = surface(static_cast<int>(state.range(0)));
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = implicit->mesh({}).triangles();
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+
 // VTK comes first: the ratios need it.
 #define IMPLICIT_TIMES MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond)
 BENCHMARK(flying_edges)->IMPLICIT_TIMES;
 BENCHMARK_CAPTURE(our_polygons, marching_cubes, Extractor::kMarchingCubes)->IMPLICIT_TIMES;
 BENCHMARK_CAPTURE(our_polygons, surface_nets, Extractor::kSurfaceNets)->IMPLICIT_TIMES;
+BENCHMARK(from_stacks)->ArgName("n")->Arg(256)->Arg(512)->IMPLICIT_TIMES;
 
 }  // namespace

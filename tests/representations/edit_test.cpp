@@ -112,6 +112,35 @@ TEST(Edit, UndoneEditsLeaveTheStackAsItWas) {  // canonical runs: the same conte
   EXPECT_EQ(stack->memory().total(), untouched->memory().total());
 }
 
+// One edit at a time changes a tile in its block, several at once write it anew. From many runs to one per
+// column, so that the tile's starts become narrower on the way.
+TEST(Edit, OneByOneGivesTheSameStacksAsAllAtOnce) {
+  constexpr int kSide = 16, kLevels = 600;
+  Progress progress;
+  const TerrainSource source = random_cells(3, kSide, kLevels, kSide, 2, 50);
+  const auto built = [&] {
+    return LayeredStack::build_stack(source, with(representation("layered_stack"), kLevels), progress);
+  };
+  const auto one_by_one = built(), at_once = built();
+  const Bounds bounds = at_once->bounds();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<float> x, z;
+  std::vector<Span> strokes;
+  for (int s = 0; s < 8000; ++s) {
+    const float a = unit(random) * kLevels, b = unit(random) * (s < 4000 ? 8 : kLevels);
+    x.push_back(bounds.low.x + unit(random) * kSide);
+    z.push_back(bounds.low.z + unit(random) * kSide);
+    strokes.push_back({bounds.low.y + a, bounds.low.y + a + 1 + b, static_cast<Material>(random() % 3)});
+    one_by_one->edit({std::span(&x.back(), 1), std::span(&z.back(), 1)}, std::span(&strokes.back(), 1));
+  }
+  EXPECT_GT(at_once->runs(), 65535U);
+  at_once->edit({x, z}, strokes);
+  EXPECT_LT(at_once->runs(), 65535U);
+  EXPECT_TRUE(*one_by_one == *at_once);
+  EXPECT_EQ(one_by_one->memory().total(), at_once->memory().total());
+}
+
 // Full leaves become parts of larger nodes once there were as many edits as leaves; until then they stay.
 TEST(Edit, ManyEditsOfOpenVdbVoxelsGiveTheirLeavesBack) {
   constexpr int kSide = 64;
