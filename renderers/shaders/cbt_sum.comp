@@ -12,12 +12,18 @@ layout(std430, binding = 4) writeonly buffer Commands {
 
 uniform int level;
 
-uint sum_of_halves(uint node) { return sum(2u * node) + sum(2u * node + 1u); }
+// In the five levels above the bits, nodes count theirs: one word instead of up to four.
+uint sum_below(uint node) {
+  int levels = depth - findMSB(node);
+  if (levels > 5) return sum(2u * node) + sum(2u * node + 1u);
+  uint first = (2u << depth) + (node << levels);
+  return uint(bitCount(words[first >> 5] >> (first & 31u) & 0xFFFFFFFFu >> (32 - (1 << levels))));
+}
 
 void sum_group(uint first_node, uint bits) {
   uint word = ((2u << level) + first_node * bits) / 32u, filled = 0u, pending = 0u;
   for (uint node = first_node; node < first_node + 32u; ++node) {
-    uint value = sum_of_halves(node);
+    uint value = sum_below(node);
     pending |= value << filled;
     filled += bits;
     if (filled < 32u) continue;
@@ -45,7 +51,7 @@ void main() {
   }
   if (gl_GlobalInvocationID.x != 0u) return;
   for (uint node = (2u << level) - 1u; node > 0u; --node) {
-    write(node, uint(depth - findMSB(node)) + 1u, sum_of_halves(node));
+    write(node, uint(depth - findMSB(node)) + 1u, sum_below(node));
   }
   uint leaves = sum(1u);
   groups = uvec3(min((leaves + 63u) / 64u, 65535u), 1u, 1u);
