@@ -29,10 +29,10 @@ struct RuleBlock {
 static_assert(sizeof(RuleBlock) == 288);
 
 struct Commands {
-  std::uint32_t groups[3], unused, draw[4];
+  std::uint32_t draw[4], groups[3], unused;
 };
-constexpr GLintptr kDraw = 16;  // bytes before Commands::draw
-constexpr int kDeepest = 30;    // the shaders count bits in 32 bits
+constexpr GLintptr kGroups = 16;  // bytes before Commands::groups
+constexpr int kDeepest = 30;      // the shaders count bits in 32 bits
 
 template <class T>
 Buffer storage_block(std::span<const T> content, std::string_view what) {
@@ -130,7 +130,7 @@ void GpuCbt::update(const SplitRule& by) {
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl_->commands.id());
   for (const Program* const pass : {&gl_->merge, &gl_->split}) {
     glUseProgram(pass->id());
-    glDispatchComputeIndirect(0);
+    glDispatchComputeIndirect(kGroups);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
   sum_up();
@@ -149,7 +149,7 @@ void GpuCbt::draw(const View& view, const FrameStyle& style) {
   glUseProgram(gl_->leaves.id());
   glBindVertexArray(gl_->none.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, gl_->commands.id());
-  glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kDraw));
+  glDrawArraysIndirect(GL_TRIANGLES, nullptr);
   glUseProgram(0);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);

@@ -5,9 +5,9 @@ layout(local_size_x = 64) in;
 
 #include "cbt_tree.glsl"
 layout(std430, binding = 4) writeonly buffer Commands {
+  uvec4 draw;    // of glDrawArraysIndirect
   uvec3 groups;  // of glDispatchComputeIndirect
   uint unused;
-  uvec4 draw;    // of glDrawArraysIndirect
 };
 
 uniform int level;
