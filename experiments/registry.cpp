@@ -36,7 +36,7 @@ extern const Experiment kSubdivisionFigures, kStandard, kSpectrum, kLimit, kLimi
 }
 namespace cross {
 extern const Experiment kRepresentations, kErrorMaps, kFileSize, kLodEqualError, kLodRanks, kLodFrames,
-    kLodJump, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
+    kLodJump, kLodGpu, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
 }
 namespace relief {
 extern const Experiment kRelief;
@@ -124,6 +124,7 @@ std::span<const std::reference_wrapper<const Experiment>> experiments() {
       cross::kLodRanks,
       cross::kLodFrames,
       cross::kLodJump,
+      cross::kLodGpu,
       cross::kLodSeams,
       cross::kLodSurface,
       cross::kLodEdit,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "terrain/solid.h"
+#include "terrain/split_rule.h"
 #include "terrain/view.h"
 
 namespace terrabench {
@@ -38,6 +39,8 @@ class ScreenBound {
   double length(const glm::dvec3& centre, double radius) const {
     return pixels_ * least_depth(centre - eye_, radius) / focal_;
   }
+  // What allow() in a ball is computed from.
+  BoundTerms terms() const { return {eye_, forward_, pixels_, focal_, near_, secant_}; }
   // Likewise by de Boer's rule, for the middles of the boxes.
   void allow_level_camera(const Boxes&, std::size_t first, std::size_t last, float* metres) const;
 

@@ -22,6 +22,12 @@ Frustum::Frustum(const View& view) {
              plane(forward, -view.near),          plane(-forward, view.far)};
 }
 
+std::array<glm::dvec4, 6> Frustum::planes() const {
+  std::array<glm::dvec4, 6> planes;
+  for (std::size_t k = 0; k < planes.size(); ++k) planes[k] = {planes_[k].normal, planes_[k].offset};
+  return planes;
+}
+
 Sight Frustum::see(const Bounds& box) const {
   unsigned planes = kAllPlanes;
   return see(box, planes);

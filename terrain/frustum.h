@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "terrain/solid.h"
 #include "terrain/view.h"
@@ -21,6 +22,9 @@ class Frustum {
   // the box lies wholly inside of.
   static constexpr unsigned kAllPlanes = 0x3F;
   Sight see(const Bounds& box, unsigned& planes) const;
+
+  // Normals, and as w the offset: inside, dot(normal, p) + offset ≥ 0.
+  std::array<glm::dvec4, 6> planes() const;
 
  private:
   // In double: with coordinates of six digits, floats lose centimetres, and could cull what is in view.

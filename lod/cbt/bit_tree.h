@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "terrain/memory.h"
@@ -41,6 +42,7 @@ class BitTree {
   // Arguments: a leaf; the parent of two leaves.
   void split(NodeId node) { add_to_sums(2 * node + 1, 1); }
   void merge(NodeId node) { add_to_sums(2 * node + 1, ~std::uint64_t{0}); }
+  std::span<const std::uint64_t> words() const { return words_; }
   Memory memory() const { return index_memory(words_); }
 
  private:

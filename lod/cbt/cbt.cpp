@@ -221,6 +221,30 @@ void Cbt::draw(const Frustum& frustum) {
   for (const Part& part : parts_) frame_.add_corners(part.corners);
 }
 
+SplitGround Cbt::split_ground() const {
+  const rtin::Lattice& lattice = errors_.lattice();
+  const glm::ivec2 size = lattice.size();
+  SplitGround ground{.grid = frame_.grid(),
+                     .roots = lattice.roots,
+                     .side_log = lattice.side_log,
+                     .depth = tree_.depth(),
+                     .errors = {},
+                     .radii = {},
+                     .tree = tree_.words()};
+  for (glm::ivec2 at{0}; at.y < size.y; ++at.y) {
+    for (at.x = 0; at.x < size.x; ++at.x) {
+      ground.errors.push_back(errors_.at(at).error);
+      ground.radii.push_back(errors_.at(at).radius);
+    }
+  }
+  return ground;
+}
+
+SplitRule Cbt::split_rule(const View& view) const {
+  check_view(view);
+  return {ScreenBound(view, pixels_).terms(), Frustum(view).planes()};
+}
+
 Memory Cbt::memory() const {
   Memory memory = errors_.memory();
   memory.index += heap_bytes(this);

@@ -25,6 +25,7 @@
 #include "lod/rtin/nested_errors.h"
 #include "lod/screen_bound.h"
 #include "terrain/frustum.h"
+#include "terrain/split_rule.h"
 
 namespace terrabench {
 
@@ -48,6 +49,10 @@ class Cbt : public Lod {
   Memory memory() const override;
 
   const cbt::BitTree& tree() const { return tree_; }
+  // For a tree on the GPU that goes on from this one (renderers/cbt/gpu_cbt.h): the ground as it is now, and
+  // what update() decides a view by, with `split=error`. Copies 8 bytes per lattice point.
+  SplitGround split_ground() const;
+  SplitRule split_rule(const View&) const;
 
  private:
   struct Criterion;  // of a view
