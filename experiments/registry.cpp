@@ -36,7 +36,7 @@ extern const Experiment kSubdivisionFigures, kStandard, kSpectrum, kLimit, kLimi
 }
 namespace cross {
 extern const Experiment kRepresentations, kErrorMaps, kFileSize, kLodEqualError, kLodRanks, kLodFrames,
-    kLodJump, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
+    kLodJump, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodDiskChunked, kLodEndless;
 }
 namespace relief {
 extern const Experiment kRelief;
@@ -131,6 +131,7 @@ std::span<const std::reference_wrapper<const Experiment>> experiments() {
       cross::kRoundTrip,
       relief::kRelief,
       cross::kLodDisk,
+      cross::kLodDiskChunked,
       cross::kLodEndless,
   };
   return all;

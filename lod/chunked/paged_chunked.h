@@ -13,7 +13,7 @@
 // a renderer has what the method has. Their four skirts are part of them. Chunks do not morph.
 //
 // Which chunks have come depends on the disk; once settled() after an update, further updates from there draw
-// the same in every run. update(): O(chunks wanted · log + chunks there). Memory: the budget; 60 bytes per
+// the same in every run. update(): O(chunks wanted · log + chunks there). Memory: the budget; 64 bytes per
 // chunk of the file, of which most are entries; and the lists of a frame.
 #pragma once
 
