@@ -36,7 +36,8 @@ extern const Experiment kSubdivisionFigures, kStandard, kSpectrum, kLimit, kLimi
 }
 namespace cross {
 extern const Experiment kRepresentations, kErrorMaps, kFileSize, kLodEqualError, kLodRanks, kLodFrames,
-    kLodJump, kLodGpu, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodEndless;
+    kLodJump, kLodGpu, kLodSeams, kLodSurface, kLodEdit, kScale, kRoundTrip, kLodDisk, kLodDiskChunked,
+    kLodEndless;
 }
 namespace relief {
 extern const Experiment kRelief;
@@ -132,6 +133,7 @@ std::span<const std::reference_wrapper<const Experiment>> experiments() {
       cross::kRoundTrip,
       relief::kRelief,
       cross::kLodDisk,
+      cross::kLodDiskChunked,
       cross::kLodEndless,
   };
   return all;

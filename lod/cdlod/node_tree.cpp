@@ -6,15 +6,25 @@
 
 namespace terrabench::cdlod {
 
-NodeTree::NodeTree(const GroundGrid& grid, int side, int levels)
-    : cell_x_(grid.cell_x), cell_z_(grid.cell_z) {
+int levels_of(int width, int depth, int side, int largest) {
+  int levels = 1;
+  while (side << levels <= largest && side << (levels - 1) < std::max(width, depth) - 1) ++levels;
+  return levels;
+}
+
+NodeTree::NodeTree(int width, int depth, glm::vec2 cell, int side, int levels)
+    : cell_x_(cell.x), cell_z_(cell.y) {
   std::size_t nodes = 0;
   for (int level = 0; level < levels; ++level) {
-    grids_.push_back({grid.width, grid.depth, side << level});
+    grids_.push_back({width, depth, side << level});
     firsts_.push_back(nodes);
     nodes += grids_.back().count();
   }
   ranges_.resize(nodes);
+}
+
+NodeTree::NodeTree(const GroundGrid& grid, int side, int levels)
+    : NodeTree(grid.width, grid.depth, {grid.cell_x, grid.cell_z}, side, levels) {
   measure(grid, {{0, 0}, {grid.width - 1, grid.depth - 1}});
 }
 

@@ -16,9 +16,14 @@
 
 namespace terrabench::cdlod {
 
+// As many levels as one node needs to cover the ground, but with no node of more than `largest` cells a side.
+int levels_of(int width, int depth, int side, int largest);
+
 class NodeTree {
  public:
   NodeTree(const GroundGrid&, int side, int levels);
+  // Over ground that is not in memory: set_range() gives every node its lowest and highest sample.
+  NodeTree(int width, int depth, glm::vec2 cell, int side, int levels);
 
   int levels() const { return static_cast<int>(grids_.size()); }
   // The nodes of a level; sides and patches are in samples.
@@ -37,6 +42,7 @@ class NodeTree {
     const Range& range = ranges_[number(level, x, z)];
     return range.highest - range.lowest;
   }
+  void set_range(std::size_t number, float lowest, float highest) { ranges_[number] = {lowest, highest}; }
   // Measures the nodes again that hold these samples. O(samples of these leaves + levels).
   void measure(const GroundGrid&, const SampleRect&);
   Memory memory() const { return index_memory(grids_, firsts_, ranges_); }

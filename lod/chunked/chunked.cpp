@@ -16,14 +16,6 @@ namespace {
 
 constexpr int kLargestSide = 512;  // cells
 
-// As many as one chunk needs to cover the ground, if it is not too large.
-int levels_of(const GroundGrid& grid, int side) {
-  int levels = 1;
-  while (side << levels <= kLargestSide && side << (levels - 1) < std::max(grid.width, grid.depth) - 1)
-    ++levels;
-  return levels;
-}
-
 bool faces(Part part, const Bounds& box, const glm::vec3& eye) {
   switch (part) {
     case kSouthSkirt:
@@ -70,7 +62,7 @@ std::unique_ptr<Lod> Chunked::build(const LodGround& from, const Parameters& par
 Chunked::Chunked(const Heightfield& ground, const Options& options, Progress& progress)
     : grid_(grid_of(ground)),
       options_(options),
-      tree_(grid_, options.side, levels_of(grid_, options.side)),
+      tree_(grid_, options.side, cdlod::levels_of(grid_.width, grid_.depth, options.side, kLargestSide)),
       chunks_(grid_, tree_, options, progress),
       was_shown_(tree_.count(), 0) {
   if (options.skirts) floors_.emplace(grid_, tree_, chunks_);

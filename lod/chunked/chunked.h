@@ -13,10 +13,11 @@
 // at most 512 cells along a side, so that an edit triangulates few samples again.
 //
 // The paper's chunks have vertices of their own; here vertices are samples, so heights are stored once for
-// all levels, and chunks are not loaded from disk. A chunk pops by up to twice the knob when its level
-// changes. With `morph`, its vertices move to the next coarser chunk's surface, by a share that follows the
-// error that is allowed, so that the knob still bounds the error. That halves the popping, but cannot end it:
-// the coarser chunk has other triangles, and level 0, which has no vertices of its own, does not morph.
+// all levels. Chunks as in the paper, loaded from disk, are in paged_chunked.h. A chunk pops by up to twice
+// the knob when its level changes. With `morph`, its vertices move to the next coarser chunk's surface, by a
+// share that follows the error that is allowed, so that the knob still bounds the error. That halves the
+// popping, but cannot end it: the coarser chunk has other triangles, and level 0, which has no vertices of
+// its own, does not morph.
 //
 // To follow a frame: update(), select(), draw(); to follow what is built, chunk_store.h and chunk_mesh.h.
 // update(): O(chunks in view), 0.2 µs each (tests/bench/chunked_bench); uploads nothing but commands.

@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "lod/chunked/chunked.h"
+#include "lod/chunked/paged_chunked.h"
 #include "lod/meters/bare_pixels.h"
 #include "lod/meters/projector.h"
 #include "tests/lod/drawing.h"
+#include "tests/lod/settle.h"
+#include "tests/terrain/temporary_folder.h"
 
 namespace terrabench::test {
 namespace {
@@ -76,8 +79,7 @@ struct Sights {
 };
 
 // At the centres of all pixels of small screens; cracks are many pixels wide.
-Sights meet(const Heightfield& field, bool skirts, bool morph) {
-  Chunked lod(field, {8, 1, skirts, morph}, silent());
+Sights meet(const Heightfield& field, Lod& lod) {
   lod.tune(80);
   Sights counts;
   for (const glm::vec2 to : {glm::vec2{1, 0.2F}, {-0.6F, 1}, {-0.5F, -0.8F}, {0.9F, -0.7F}}) {
@@ -98,6 +100,11 @@ Sights meet(const Heightfield& field, bool skirts, bool morph) {
   return counts;
 }
 
+Sights meet(const Heightfield& field, bool skirts, bool morph) {
+  Chunked lod(field, {8, 1, skirts, morph}, silent());
+  return meet(field, lod);
+}
+
 class Skirts : public ::testing::TestWithParam<bool> {};  // morph
 INSTANTIATE_TEST_SUITE_P(Morph, Skirts, ::testing::Bool());
 
@@ -111,6 +118,23 @@ TEST_P(Skirts, CoverEveryCrack) {
   EXPECT_EQ(of(open, Met::kSkirt), 0U);
   EXPECT_GT(of(open, Met::kBelow), 20U);
   EXPECT_GT(open.bare, 0U);
+}
+
+// All four of a chunk are drawn, those on the ground's border too, so bare pixels say nothing.
+TEST(Skirts, OfChunksOnDiskCoverEveryCrack) {
+  const Heightfield field = hilly(150, 131, 12, 3);
+  const TemporaryFolder folder;
+  chunked::ChunkFile::build(*heights_in_memory(field), {8, 512, 1}, folder / "chunks", silent());
+  PagedChunked lod(folder / "chunks", std::size_t{1} << 26);
+  lod.tune(80);
+  View all = from_above(field);
+  all.eye.y = 60;
+  settle(lod, all);
+  const std::uint64_t late = lod.late_frames();
+  const Sights sights = meet(field, lod);
+  EXPECT_EQ(lod.late_frames(), late);
+  EXPECT_EQ(sights.met[static_cast<std::size_t>(Met::kBelow)], 0U);
+  EXPECT_GT(sights.met[static_cast<std::size_t>(Met::kSkirt)], 50U);
 }
 
 }  // namespace
