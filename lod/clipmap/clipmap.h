@@ -1,6 +1,8 @@
 // Geometry clipmaps (Losasso & Hoppe 2004; the hybrid paper uses them, §3.2): nested windows of n × n samples
 // around the eye, each twice as coarse as the one inside it. Windows are stored toroidally, so that a move of
-// the eye reads only the strips that entered a window.
+// the eye reads only the strips that entered a window. As in the form for the GPU (Asirvatham & Hoppe 2005),
+// blocks and indices never change, heights alone are sent, and the vertex shader blends them between levels;
+// decoding heights as differences from the coarser level, on the GPU, is left out.
 // Lattice coordinates number a level's own samples: (a, b) is sample (a·2^level, b·2^level) of the terrain. A
 // window has n = 4m - 1 samples per side; a row of its array has the next power of two (terrain/frame.h).
 //
