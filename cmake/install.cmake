@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terrabench)
-install(TARGETS terrabench)
+install(TARGETS terrabench COMPONENT program)
 install(TARGETS ${TERRABENCH_MODULES} EXPORT terrabench
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/terrabench)
 install(TARGETS glad EXPORT terrabench)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "renderers/contexts.h"
 #include "renderers/gl.h"
@@ -28,14 +29,20 @@ SharedLibrary::Symbol SharedLibrary::operator[](const char* name) const {
 
 namespace {
 
-std::unique_ptr<GlContext> open_auto(int width, int height) {
+// Null without a GPU.
+std::unique_ptr<GlContext> open_gpu(int width, int height) {
   try {
     auto context = open_egl(width, height, EglDevices::kGpus);
     if (!context->software()) return context;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kEnvironment) throw;  // a wrong size is wrong for OSMesa, too
   }
-  return open_osmesa(width, height);
+  return nullptr;
+}
+
+std::unique_ptr<GlContext> open_auto(int width, int height) {
+  auto gpu = open_gpu(width, height);
+  return gpu != nullptr ? std::move(gpu) : open_osmesa(width, height);
 }
 
 struct ContextType {
@@ -110,6 +117,11 @@ bool GlContext::software() const {
     if (name.find(known) != std::string::npos) return true;
   }
   return false;
+}
+
+std::string gpu_name() {
+  const auto gpu = open_gpu(1, 1);
+  return gpu == nullptr ? "" : gpu->renderer();
 }
 
 std::span<const std::string_view> context_names() {

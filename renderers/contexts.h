@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "renderers/context.h"
@@ -51,6 +52,10 @@ enum class EglDevices : std::uint8_t {
 // environment_error when the library is absent or there is no such device.
 std::unique_ptr<GlContext> open_egl(int width, int height, EglDevices devices = EglDevices::kAll,
                                     const char* library = "libEGL.so.1");
+
+// The GPU that open_context("auto") draws on, as GlContext::renderer() names it; empty without one. Takes
+// milliseconds without a GPU, some tenths of a second with one, and leaves no context current.
+std::string gpu_name();
 
 // A hidden window through GLFW, on an X display (window.h opens visible ones). Only the main thread may open
 // windows. Throws environment_error when the library is absent, there is no display, or it has no OpenGL 4.5.

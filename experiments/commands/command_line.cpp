@@ -2,6 +2,7 @@
 #include "experiments/commands/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -20,12 +21,15 @@
 #include <utility>
 
 #include "experiments/commands/commands.h"
+#include "experiments/commands/manual.h"
 #include "experiments/method_sets.h"
+#include "renderers/contexts.h"
 #include "results/report/citation.h"
 #include "terrain/error.h"
 #include "terrain/number.h"
 #include "terrain/progress.h"
 #include "terrain/sources/dem/network.h"
+#include "terrain/sources/noise/program.h"
 
 namespace terrabench {
 namespace {
@@ -81,7 +85,8 @@ struct Arguments {
   MergeArguments merge;
   ReportArguments report;
   std::filesystem::path info;
-  std::string help;  // the command to describe; empty: the program
+  std::string help;         // the command to describe; empty: the program
+  std::string help_format;  // empty: text
   int threads = 0;
 };
 
@@ -89,10 +94,12 @@ void add_list(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("list",
                                      "List representations, lods, experiments, claims, terrains, models and "
                                      "the scene, with their parameters");
-  command->add_option(
-      "what", a.list.what,
-      "representations, lods, experiments, claims, terrains, models or scene; or a paper, hybrid, "
-      "ght, drill, mrbsp or meshgrow, or cross: its experiments and claims (default: all)");
+  command
+      ->add_option("what", a.list.what,
+                   "What to list; of a paper, and of cross, experiments and claims (default: all)")
+      ->type_name(
+          "{representations,lods,experiments,claims,terrains,models,scene,hybrid,ght,drill,mrbsp,meshgrow,"
+          "cross}");
   command->add_flag("--json", a.list.json, "Print JSON");
 }
 
@@ -110,9 +117,10 @@ void add_results(CLI::App& app, Arguments& a) {
       "(verdict, the value that decides, its expected range), then one line per paper. Exits with 0 if every "
       "claim is as expected: exactly those of its conditions fail that are known to; else with 1");
   check->add_option("dir", a.check.folder, "Results folder")->capture_default_str();
-  check->add_option("--claims,--rows", a.check.claims,
-                    "Check only these claims: ids or globs such as 'hybrid.T1.*' (default: those of the "
-                    "experiments that were run)");
+  check->add_option(
+      "--claims,--rows", a.check.claims,
+      "Check only these claims: ids from `terrabench list claims`, or globs such as 'hybrid.T1.*' "
+      "(default: those of the experiments that were run)");
   check->add_flag("--all", a.check.all, "Also claims of experiments that were not run: they fail as missing");
   add_profile_to_read(*check, a.check.profile);
   check->add_flag("--verbose", a.check.verbose, "Print all evidence under each line");
@@ -161,10 +169,26 @@ void add_results(CLI::App& app, Arguments& a) {
   merge->add_option("in", a.merge.folders, "Results folders")->required();
 }
 
+std::vector<std::string_view> names_of_commands(const CLI::App& app) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+// After the other commands, which it names.
 void add_help(CLI::App& app, Arguments& a) {
-  app.add_subcommand("help", "Describe the program, or a command: terrabench help run")
-      ->add_option("command", a.help, "One of the commands");
-  app.add_subcommand("version", "Print the version");
+  app.add_subcommand("version", "Print the version, the instruction set in use and the GPU");
+  auto* command = app.add_subcommand("help", "Describe the program, or a command: terrabench help run");
+  auto* const one = command->add_option("command", a.help, "The command to describe (default: the program)")
+                        ->type_name(fmt::format("{{{}}}", fmt::join(names_of_commands(app), ",")));
+  command
+      ->add_option("--format", a.help_format,
+                   "Print the whole manual page (man), or a script that completes command lines: source "
+                   "<(terrabench help --format bash)")
+      ->check(CLI::IsMember(std::vector<std::string>(manual_formats().begin(), manual_formats().end())))
+      ->excludes(one);
 }
 
 // What is wrong with the value of an option of that type, or nothing.
@@ -196,14 +220,6 @@ void check_values(CLI::App& app) {
   }
 }
 
-std::vector<std::string_view> names_of_commands(const CLI::App& app) {
-  std::vector<std::string_view> names;
-  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
-
 // CLI11 would take the next argument for the value of "--junit=".
 void check_empty_values(std::span<char*> arguments) {
   for (const std::string_view word : arguments) {
@@ -224,7 +240,11 @@ void check_command(const CLI::App& app, std::span<char*> arguments) {
   }
 }
 
-ExitCode help_command(const CLI::App& app, const std::string& command) {
+ExitCode help_command(const CLI::App& app, const std::string& command, const std::string& format) {
+  if (!format.empty()) {
+    fmt::print("{}", manual(app, format));
+    return ExitCode::kGood;
+  }
   if (command.empty()) {
     // app.help() would describe the command that was given: this one.
     fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
@@ -238,6 +258,13 @@ ExitCode help_command(const CLI::App& app, const std::string& command) {
   return ExitCode::kGood;
 }
 
+// What a report of an error should name.
+std::string about_program() {
+  const std::string gpu = gpu_name();
+  return fmt::format("terrabench {}\nInstruction set: {}\nGPU with OpenGL 4.5: {}", version(),
+                     noise::simd_name(), gpu.empty() ? "none; pictures are drawn in software" : gpu);
+}
+
 // Only for commands that ask Progress whether to stop; in others a signal ends the process at once, as usual.
 void install_signals() {
   std::signal(SIGINT, on_signal);
@@ -245,9 +272,9 @@ void install_signals() {
 }
 
 ExitCode dispatch(const CLI::App& app, Arguments& a) {
-  if (app.got_subcommand("help")) return help_command(app, a.help);
+  if (app.got_subcommand("help")) return help_command(app, a.help, a.help_format);
   if (app.got_subcommand("version")) {
-    fmt::print("terrabench {}\n", version());
+    fmt::print("{}\n", about_program());
     return ExitCode::kGood;
   }
   if (app.got_subcommand("list")) return list_command(a.list);
@@ -270,7 +297,7 @@ ExitCode dispatch(const CLI::App& app, Arguments& a) {
 int main_program(int argc, char** argv) {
   CLI::App app{"terrabench reproduces five terrain papers and measures their methods against each other."};
   app.require_subcommand(1);
-  app.set_version_flag("--version", [] { return "terrabench " + version(); });
+  app.set_version_flag("--version", about_program);
   app.add_flag_callback("--allow-network", allow_network,
                         "Let DEMs that name files on the network, such as /vsicurl/ in a .vrt, fetch them");
   Arguments arguments;

@@ -1,5 +1,6 @@
 // The options of the commands that build or draw one terrain.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -28,7 +29,7 @@ void add_renderer(CLI::App& command, std::string& renderer, bool raytrace) {
             const bool known = std::find(names.begin(), names.end(), value) != names.end();
             return known ? std::string() : std::string(unknown_name("renderer", value, names).what());
           },
-          ""))
+          fmt::format("{{{}}}", fmt::join(names, ","))))
       ->capture_default_str();
 }
 
@@ -169,10 +170,8 @@ void add_advise(CLI::App& app, AdviseArguments& a, int& threads) {
           "The path of a DEM, dem:FILE,OPTION=VALUE (docs/grounds.md), drawing:FILE.png or an event file")
       ->required();
   command
-      ->add_option(
-          "--for", a.purpose,
-          "What the ground is for: flying, walking, editing or archiving. Asks only the questions that "
-          "matter for it (default: all)")
+      ->add_option("--for", a.purpose,
+                   "What the ground is for. Asks only the questions that matter for it (default: all)")
       ->check(CLI::Validator(
           [](const std::string& value) {
             const std::vector<std::string> known = purposes();
@@ -180,7 +179,7 @@ void add_advise(CLI::App& app, AdviseArguments& a, int& threads) {
             const std::vector<std::string_view> names(known.begin(), known.end());
             return std::string(unknown_name("purpose", value, names).what());
           },
-          ""));
+          fmt::format("{{{}}}", fmt::join(purposes(), ","))));
   command->add_option("--out", a.folder, "Results folder (default: advice-NAME, after the file)");
   command->add_option(
       "--reference", a.reference,

@@ -40,9 +40,10 @@ void print_cases(const RunPlan& plan) {
 
 void add_run(CLI::App& app, RunArguments& a, int& threads) {
   auto* command = app.add_subcommand("run", "Measure experiments into a results folder");
-  command->add_option("ids", a.plan.patterns,
-                      "Experiment ids or globs such as 'hybrid.*' (default: all). A word that matches no "
-                      "experiment chooses among their cases, by name or glob");
+  command->add_option(
+      "ids", a.plan.patterns,
+      "Names from `terrabench list experiments`, or globs such as 'hybrid.*' (default: all). A word "
+      "that matches no experiment chooses among their cases, by name or glob");
   command
       ->add_option("--profile", a.profile,
                    "quick: takes minutes; paper: the papers' sizes; scale: growth with size (cross.scale), "

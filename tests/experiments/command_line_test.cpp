@@ -34,7 +34,9 @@ TEST_F(CommandLine, HelpAndVersionExitGood) {
     EXPECT_EQ(call(std::string("$T ") + command + " --help").code, 0) << command;
   }
   for (const char* version : {"$T --version", "$T version"}) {
-    EXPECT_THAT(call(version).text, MatchesRegex("terrabench [0-9.]+, git revision [0-9a-z]+.*\n"))
+    EXPECT_THAT(call(version).text,
+                MatchesRegex("terrabench [0-9.]+, git revision [0-9a-z]+.*\nInstruction set: [A-Z0-9_]+\n"
+                             "GPU with OpenGL 4.5: .+\n"))
         << version;
   }
   EXPECT_THAT(call("$T help merge").text, HasSubstr("terrabench merge out shard1 shard2"));

@@ -57,6 +57,12 @@ TEST(Context, OpensAndSaysWhatDraws) {
   EXPECT_EQ(image.height, 32);
 }
 
+TEST(Context, NamesTheGpuThatAutoDrawsOn) {
+  const std::string gpu = gpu_name();
+  const auto context = open_context("auto", 4, 4);
+  EXPECT_EQ(gpu, context->software() ? "" : context->renderer());
+}
+
 TEST(Context, NamesTheNearestRenderer) {
   const Failure error = failure_of([] { open_context("osmeza", 64, 64); });
   EXPECT_EQ(error.code, ExitCode::kUsage);
