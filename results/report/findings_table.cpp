@@ -25,7 +25,7 @@ Cell cell_of(const Ranking& ranking) {
   Cell cell{joined(best)};
   if (best.empty()) {
     cell.text = contenders.empty()               ? "not decided"
-                : contenders.size() > kMostNamed ? fmt::format("one of {} methods", contenders.size())
+                : contenders.size() > kMostNamed ? fmt::format("{} methods, undecided", contenders.size())
                                                  : list_of(contenders, ", ", " or ");
     cell.style = "undecided";
   } else if (best.size() > 1) {
@@ -81,7 +81,7 @@ class Outcomes {
   }
 
  private:
-  // "perhaps CBT or RTIN on 3 of 3 grounds; none is decided"
+  // "no clear winner; CBT or RTIN may be the best on 3 of 3 grounds"
   std::string undecided() const {
     int most = 0;
     std::vector<std::string> methods;
@@ -91,8 +91,8 @@ class Outcomes {
       most = std::max(most, grounds);
     }
     if (methods.empty()) return fmt::format("not decided on {} grounds", grounds_);
-    return fmt::format("perhaps {} on {} of {} grounds; none is decided", list_of(methods, ", ", " or "),
-                       most, grounds_);
+    return fmt::format("no clear winner; {} may be the best on {} of {} grounds",
+                       list_of(methods, ", ", " or "), most, grounds_);
   }
 
   std::string shares(const std::vector<int>& grounds) const {

@@ -366,7 +366,7 @@ TEST_F(RankingTest, AnUndecidedCellNamesWhichMayBeTheBest) {
   const std::vector<Cell> cells = findings_tables(here).at(0).rows.at(0);
   EXPECT_EQ(cells.at(1).text, "drills or voxels");
   EXPECT_EQ(cells.at(1).style, "undecided");
-  EXPECT_EQ(cells.at(2).text, "perhaps drills or voxels on 1 of 1 grounds; none is decided");
+  EXPECT_EQ(cells.at(2).text, "no clear winner; drills or voxels may be the best on 1 of 1 grounds");
 }
 
 TEST_F(RankingTest, AFindingThatTheReferenceDoesNotShareIsMarked) {
