@@ -29,15 +29,15 @@ Side::Side(GlContext& context, Built built) : context_(context), built_(std::mov
 }
 
 void Side::show_landscape(bool landscape) {
-  if (landscape == landscape_.has_value()) return;
-  landscape_.reset();
-  triangles_.reset();
-  mapped_ = measured_ = false;  // the painted map went with them
+  if (landscape ? landscape_.has_value() : triangles_.has_value()) return;
   if (landscape) {
     landscape_.emplace(context_, make_style(Parameters(landscape_parameters()), ground()->bounds));
+    triangles_.reset();
   } else {
     triangles_.emplace(context_);
+    landscape_.reset();
   }
+  mapped_ = measured_ = false;  // the painted map went with the triangles
 }
 
 void Side::tune(double knob) {
@@ -115,7 +115,7 @@ void Side::map_errors(double full) {
 FrameSample Side::take_edit(const SampleRect& rect, const View& view) {
   const double told = milliseconds([&] { built_.lod->edited(rect); });
   choose(view);
-  if (landscape_) landscape_->skip(*frame_);
+  if (landscape_) now_.send = milliseconds([&] { landscape_->skip(*frame_); });
   now_.choose += told;
   return now_;
 }

@@ -72,6 +72,8 @@ std::string summary(const std::string& help) {
 std::string roff(std::string_view text) {
   std::string all;
   for (const char c : text) {
+    // A line that begins so would be a request.
+    if ((c == '.' || c == '\'') && (all.empty() || all.back() == '\n')) all += "\\&";
     if (c == '\\') {
       all += "\\e";
     } else if (c == '-') {
@@ -80,8 +82,7 @@ std::string roff(std::string_view text) {
       all += c;
     }
   }
-  // A line that begins so would be a request.
-  return all.starts_with('.') || all.starts_with('\'') ? "\\&" + all : all;
+  return all;
 }
 
 std::string page_entry(const CLI::Option& option) {

@@ -35,9 +35,10 @@ Memory LoadedChunk::memory() const {
 
 ChunkFile::ChunkFile(const std::filesystem::path& path)
     : path_(path.string()), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  struct stat status {};
-  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) throw damaged("cannot be opened");
+  if (descriptor_ < 0) throw bad_input(std::strerror(errno), path_, "check the path");
   try {
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0) throw damaged(std::strerror(errno));
     read_entries(static_cast<std::uint64_t>(status.st_size));
   } catch (...) {
     close(descriptor_);

@@ -88,6 +88,9 @@ void PagedChunked::take_loaded() {
     held_ -= file_.heap_bytes_at_most(page.at);
     --asked_;
     slot(page.at).asked = false;
+    // Its parent may have been freed meanwhile; without it, it could not be drawn.
+    const ChunkPlace parent{page.at.level + 1, page.at.x / 2, page.at.z / 2};
+    if (parent.level < file_.tree().levels() && !is_there(parent)) continue;
     keep(page.at, std::move(page.chunk));
   }
   loaded_.clear();

@@ -13,8 +13,9 @@
 // a renderer has what the method has. Their four skirts are part of them. Chunks do not morph.
 //
 // Which chunks have come depends on the disk; once settled() after an update, further updates from there draw
-// the same in every run. update(): O(chunks wanted · log + chunks there). Memory: the budget; 64 bytes per
-// chunk of the file, of which most are entries; and the lists of a frame.
+// the same in every run, if the budget has room for all that is wanted. update(): O(chunks wanted · log +
+// chunks there). Memory: the budget; 64 bytes per chunk of the file, half of them entries; and the lists of a
+// frame.
 #pragma once
 
 #include "lod/chunked/chunk_file.h"
@@ -48,9 +49,8 @@ class PagedChunked : public Lod {
 
   const chunked::ChunkFile& file() const { return file_; }
   bool is_there(const chunked::ChunkPlace& at) const { return slots_[file_.number(at)].chunk != nullptr; }
-  std::size_t held_bytes() const {
-    return held_;
-  }  // of chunks that are there or being loaded; at most the budget
+  // Of chunks that are there or being loaded; at most the budget.
+  std::size_t held_bytes() const { return held_; }
   std::uint64_t late_frames() const { return late_frames_; }
   std::uint64_t late_chunks() const { return late_chunks_; }  // drawn in place of finer ones, over all frames
   std::uint64_t bytes_read() const { return bytes_read_; }
@@ -88,7 +88,7 @@ class PagedChunked : public Lod {
   std::vector<chunked::ChunkPlace> there_;  // by number
   std::vector<Wanted> wanted_;
   std::vector<chunked::Pager::Page> loaded_;
-  std::uint32_t frame_number_ = 0;
+  std::uint32_t frame_number_ = 1;  // of the last frame; 1: none yet
   bool settled_ = false;
   std::uint64_t late_frames_ = 0, late_chunks_ = 0, bytes_read_ = 0, chunks_read_ = 0;
   std::size_t changes_ = 0;

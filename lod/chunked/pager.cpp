@@ -23,9 +23,9 @@ void Pager::ask(const ChunkPlace& at) {
   const std::lock_guard lock(mutex_);
   asked_.push_back(at);
   if (loading_) return;
-  finish();  // the thread needs the mutex no more
+  finish();                                   // the thread needs the mutex no more
+  thread_ = std::thread([this] { load(); });  // waits for the mutex
   loading_ = true;
-  thread_ = std::thread([this] { load(); });
 }
 
 void Pager::load() {

@@ -131,8 +131,9 @@ class TreeWalk {
     }
   }
 
-  // The heights at which the halves are split, and the bounds of their halves.
+  // The heights at which the halves are split, if they can be, and the bounds of their halves.
   void prefetch_below(const Triangle& t, int depth, std::uint32_t node) const {
+    if (depth + 1 >= tree_.depth()) return;
     __builtin_prefetch(&grid_.heights[vertex(middle(t.apex, t.left))]);
     __builtin_prefetch(&grid_.heights[vertex(middle(t.apex, t.right))]);
     if (depth + 2 <= bounds_.depth()) __builtin_prefetch(&bounds_[4 * node]);

@@ -4,6 +4,19 @@
 #include <limits>
 
 namespace terrabench {
+namespace {
+
+// By Newell's sum, for corners in any number that may lie in a line.
+bool looks_down(const FaceMesh& mesh, std::span<const std::uint32_t> face) {
+  float y = 0;
+  for (std::size_t c = 0; c < face.size(); ++c) {
+    const glm::vec3 a = mesh.positions[face[c]], b = mesh.positions[face[(c + 1) % face.size()]];
+    y += (a.z - b.z) * (a.x + b.x);
+  }
+  return y < 0;
+}
+
+}  // namespace
 
 FaceMesh surface_only(const FaceMesh& whole, const Bounds& bounds) {
   constexpr float kShare = 1e-5F;  // of the bounds' size: rounding of corners that lie in a plane
@@ -13,7 +26,8 @@ FaceMesh surface_only(const FaceMesh& whole, const Bounds& bounds) {
     const auto all = [&](auto lies) {
       return std::ranges::all_of(face, [&](std::uint32_t v) { return lies(whole.positions[v]); });
     };
-    return all([&](glm::vec3 p) { return p.y <= low.y; }) || all([&](glm::vec3 p) { return p.x <= low.x; }) ||
+    return (looks_down(whole, face) && all([&](glm::vec3 p) { return p.y <= low.y; })) ||
+           all([&](glm::vec3 p) { return p.x <= low.x; }) ||
            all([&](glm::vec3 p) { return p.x >= high.x; }) ||
            all([&](glm::vec3 p) { return p.z <= low.z; }) || all([&](glm::vec3 p) { return p.z >= high.z; });
   };

@@ -6,8 +6,8 @@
 
 namespace terrabench {
 
-// Without the faces that lie whole in the bottom or in one side of these bounds, and without the vertices
-// that only those use. Creases are dropped. O(corners).
+// Without the faces that lie whole in one side of these bounds, or in the bottom and look down, and without
+// the vertices that only those use. Walls around samples without data stay. Creases are dropped. O(corners).
 FaceMesh surface_only(const FaceMesh&, const Bounds&);
 
 // From x east, y up, z south to x east, y north, z up.

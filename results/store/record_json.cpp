@@ -377,7 +377,7 @@ std::string to_line(const Record& record) {
              {"figures", figures}});
   if (!record.terrain_notes.empty()) line["terrain_notes"] = record.terrain_notes;
   if (!record.overrides.empty()) line["overrides"] = record.overrides;
-  if (record.seconds > 0) line["seconds"] = std::ceil(1000 * record.seconds) / 1000;
+  if (record.seconds > 0) line["seconds"] = std::max(1.0, std::round(1000 * record.seconds)) / 1000;
   if (record.outcome != CaseOutcome::kMeasured) {
     line["outcome"] = name(record.outcome);
     line["reason"] = record.reason;

@@ -99,6 +99,7 @@ TEST_F(Export, TheSurfaceAloneWithZUp) {
   }
   EXPECT_EQ(call("$T export a.tb b.tif --up z").code, 2);
   EXPECT_EQ(call("$T export a.tb b.ply --up x").code, 2);
+  EXPECT_EQ(call("$T export a.tb b.ply --up z --like dem.tif").code, 2);
 }
 
 TEST_F(Export, TheSurfaceOfASolidKeepsItsOverhangs) {

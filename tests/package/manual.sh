@@ -6,9 +6,10 @@ commands=$(terrabench --help | sed -n '/^Subcommands:/,/^$/ s/^  \([a-z][a-z]*\)
 [[ $commands == *represent* ]]
 for command in $commands; do
   section=$(sed -n "/^\.SS terrabench $command /,/^\.S/p" <<<"$page")
+  options=$(terrabench "$command" --help | grep -o -e '^  -h,--help' -e '^  --[a-z-]*' -e '^  terrabench .*')
   while read -r option; do
-    [[ $section == *"$option"* ]] || { echo "$command: the page lacks $option" && exit 1; }
-  done < <(terrabench "$command" --help | grep -o -e '^  --[a-z-]*' -e '^  terrabench .*')
+    [[ $section == *"${option/,/, }"* ]] || { echo "$command: the page lacks $option" && exit 1; }
+  done <<<"$options"
 done
 [[ $page == *'.SH EXIT STATUS'* ]]
 

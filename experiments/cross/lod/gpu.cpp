@@ -61,21 +61,15 @@ class Trees {
       const bool changed = after != before;
       if (changed) passes.gpu = frame;
       if (changes_ > 0) passes.processor = frame;
+      differing_ += splits_differing(after);
       if (!changed && changes_ == 0) break;
       before = std::move(after);
     }
     return passes;
   }
-  // Triangles that one tree has split and the other has not: bits of the finest level, the last quarter.
-  std::size_t splits_differing() const {
-    const std::span<const std::uint64_t> of_processor = processor_.tree().words();
-    const std::vector<std::uint64_t> of_gpu = gpu_.tree();
-    std::size_t differing = 0;
-    for (std::size_t k = 3 * of_gpu.size() / 4; k < of_gpu.size(); ++k) {
-      differing += static_cast<std::size_t>(std::popcount(of_processor[k] ^ of_gpu[k]));
-    }
-    return differing;
-  }
+  void compare() { differing_ += splits_differing(gpu_.tree()); }
+  // Triangles that one tree has split and the other has not, over all passes of rest() and all compare().
+  std::size_t differing() const { return differing_; }
 
   std::size_t leaves() const { return processor_.tree().leaves(); }
   int depth() const { return processor_.tree().depth(); }
@@ -83,10 +77,20 @@ class Trees {
   std::size_t gpu_bytes() const { return gpu_.tree_bytes(); }
 
  private:
+  // Bits of the finest level, the last quarter.
+  std::size_t splits_differing(const std::vector<std::uint64_t>& of_gpu) const {
+    const std::span<const std::uint64_t> of_processor = processor_.tree().words();
+    std::size_t differing = 0;
+    for (std::size_t k = 3 * of_gpu.size() / 4; k < of_gpu.size(); ++k) {
+      differing += static_cast<std::size_t>(std::popcount(of_processor[k] ^ of_gpu[k]));
+    }
+    return differing;
+  }
+
   Cbt processor_;
   GpuCbt gpu_;
   FrameClock clock_;
-  std::size_t changes_ = 0;  // of the processor's last pass
+  std::size_t changes_ = 0, differing_ = 0;  // changes_: of the processor's last pass
 };
 
 void measure(const Case& at, const RunOptions& options, Recorder& recorder, Progress& progress) {
@@ -95,14 +99,13 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
   const auto context = open_context(options.renderer, 1, 1);
   Trees trees(*source.heights, at.parameters.number("error"), *context, progress);
   trees.rest(path.front());
-  std::size_t differing = 0;
   progress.begin("choosing on processor and GPU", path.size() + kJumps);
   for (const View& view : path) {
     const Trees::Times times = trees.pass(view);
     recorder.add_frame("processor_choose", "s", times.processor);
     recorder.add_frame("gpu_choose", "s", times.gpu);
     recorder.add_frame("leaves", "", static_cast<double>(trees.leaves()));
-    differing += trees.splits_differing();
+    trees.compare();
     progress.advance();
   }
   Trees::Passes most;
@@ -111,11 +114,10 @@ void measure(const Case& at, const RunOptions& options, Recorder& recorder, Prog
     trees.rest(path[from]);
     const Trees::Passes passes = trees.rest(path[(from + path.size() / 2) % path.size()]);
     most = {std::max(most.processor, passes.processor), std::max(most.gpu, passes.gpu)};
-    differing += trees.splits_differing();
     progress.advance();
   }
   progress.end();
-  recorder.add("splits_differing", "", static_cast<double>(differing));
+  recorder.add("splits_differing", "", static_cast<double>(trees.differing()));
   recorder.add("processor_frames_to_rest", "", static_cast<double>(most.processor));
   recorder.add("gpu_frames_to_rest", "", static_cast<double>(most.gpu));
   recorder.add("processor_tree", "B", static_cast<double>(trees.processor_bytes()));
