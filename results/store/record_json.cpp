@@ -118,10 +118,9 @@ class Fields {
     return value.get<std::uint64_t>();
   }
   double positive(const char* name) {
-    const Json& value = get(name);
-    require(value.is_number() && value.get<double>() > 0 && std::isfinite(value.get<double>()),
-            fmt::format("'{}' is not a positive number", name));
-    return value.get<double>();
+    const double value = get(name).is_number() ? get(name).get<double>() : 0;
+    require(value > 0 && std::isfinite(value), fmt::format("'{}' is not a positive number", name));
+    return value;
   }
   bool flag(const char* name) {
     const Json& value = get(name);
@@ -219,9 +218,8 @@ std::vector<int> numbers_of(Fields& fields, const char* name, std::size_t per_en
 FigureLayout layout_from(Fields& fields) {
   FigureLayout layout;
   const std::vector<int> numbers = numbers_of(fields, "panels", 4);
-  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+  for (std::size_t i = 0; i < numbers.size(); i += 4)
     layout.panels.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
-  }
   layout.words = fields.texts("words");
   if (fields.has("repeats")) layout.repeats = numbers_of(fields, "repeats", 2);
   return layout;
@@ -302,9 +300,7 @@ Provenance provenance_from(Fields& fields) {
     require(version.is_string(), fmt::format("the version of '{}' is not text", name));
     p.libraries.emplace_back(name, version.get<std::string>());
   }
-  if (fields.has("timing_warnings")) {
-    p.timing_warnings = fields.texts("timing_warnings");
-  }
+  if (fields.has("timing_warnings")) p.timing_warnings = fields.texts("timing_warnings");
   return p;
 }
 
@@ -357,9 +353,8 @@ std::string to_line(const Record& record) {
                                             {"caption", figure.caption},
                                             {"checksum", figure.checksum}});
     entry["panels"] = Json::array();
-    for (const FigurePanel& p : figure.layout.panels) {
+    for (const FigurePanel& p : figure.layout.panels)
       for (const int number : {p.x, p.y, p.width, p.height}) entry["panels"].push_back(number);
-    }
     entry["words"] = figure.layout.words;
     if (!figure.layout.repeats.empty()) entry["repeats"] = figure.layout.repeats;
   }
@@ -378,18 +373,14 @@ std::string to_line(const Record& record) {
   if (!record.terrain_notes.empty()) line["terrain_notes"] = record.terrain_notes;
   if (!record.overrides.empty()) line["overrides"] = record.overrides;
   if (record.seconds > 0) line["seconds"] = std::max(1.0, std::round(1000 * record.seconds)) / 1000;
-  if (record.outcome != CaseOutcome::kMeasured) {
-    line["outcome"] = name(record.outcome);
-    line["reason"] = record.reason;
-  }
+  if (record.outcome != CaseOutcome::kMeasured)
+    line.update({{"outcome", name(record.outcome)}, {"reason", record.reason}});
   for (const auto& [metric, reason] : record.undefined) line["undefined"][metric] = reason;
   return sealed(std::move(line));
 }
 
 std::string to_line(const Provenance& provenance) { return sealed(to_json(provenance)); }
-
 std::string digest(const Provenance& provenance) { return checksum(canonical(to_json(provenance))); }
-
 bool is_complete_json(std::string_view text) { return Json::accept(text); }
 
 Line parse_line(std::string_view text, const std::string& where) {
