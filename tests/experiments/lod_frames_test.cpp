@@ -163,10 +163,11 @@ TEST(LodFramesLayouts, ShowEveryMethodOnEveryGround) {
     }
     for (const PlotLayout& plot : paper.plots) {
       if (!plot.id.starts_with("cross.lod-frames.bars-")) continue;
-      EXPECT_EQ(plot.rows.size(), known.size()) << plot.id;
+      EXPECT_EQ(plot.rows.size(), known.size() - 1) << plot.id;
       bars.insert(bars.end(), plot.rows.begin(), plot.rows.end());
     }
   }
+  known.erase("brute_force");  // its bar would leave no room for the others
   check(bars);
 }
 
