@@ -14,6 +14,7 @@
 #include "experiments/experiment.h"
 #include "experiments/stopwatch.h"
 #include "lod/chunked/paged_chunked.h"
+#include "terrain/error.h"
 
 namespace terrabench::cross {
 namespace {
@@ -54,14 +55,18 @@ std::vector<View> flight(const fs::path& folder, int seconds) {
   return views;
 }
 
-// So that chunks come from the disk and not from memory in which the system keeps what was written.
+// Frees the memory in which the system keeps what was written, so that chunks come from the disk.
 void forget_content(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED);
-  close(descriptor);
+  const bool forgotten = descriptor >= 0 && posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED) == 0;
+  if (descriptor >= 0) close(descriptor);
+  if (!forgotten) {
+    throw environment_error("the system does not free the memory that holds it", file.string(),
+                            "set TMPDIR to a folder on a disk");
+  }
 }
 
-// Until the first view is there without pause, then frame by frame when it is due.
+// Updates without pause until all chunks of the first view are there, then at the time of each frame.
 void fly(const fs::path& chunks, const std::vector<View>& views, std::size_t budget, Recorder& recorder,
          Progress& progress) {
   using Clock = std::chrono::steady_clock;
