@@ -96,7 +96,7 @@ void add_list(CLI::App& app, Arguments& a) {
                                      "the scene, with their parameters");
   command
       ->add_option("what", a.list.what,
-                   "What to list; of a paper, and of cross, experiments and claims (default: all)")
+                   "What to list; a paper, or cross, lists its experiments and claims (default: all)")
       ->type_name(
           "{representations,lods,experiments,claims,terrains,models,scene,hybrid,ght,drill,mrbsp,meshgrow,"
           "cross}");

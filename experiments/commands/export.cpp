@@ -56,7 +56,7 @@ ExitCode export_command(const ExportArguments& a) {
     if (extension != ".ply" && extension != ".obj")
       throw usage_error("--surface-only and --up are for polygons", a.out.string(), "write .ply or .obj");
     if (!a.like.empty())
-      throw usage_error("polygons do not follow the samples of a DEM", "--like", "leave it out");
+      throw usage_error("does not apply to --surface-only and --up", "--like", "leave it out");
     write_surface(a, *loaded.representation);
     return ExitCode::kGood;
   }
